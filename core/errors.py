@@ -24,9 +24,7 @@ class TowtankError(Exception):
         Row, key, channel or run inside the file.
     """
 
-    def __init__(
-        self, cause: str, *, cure: str = "", file: str | Path | None = None, place: str = ""
-    ) -> None:
+    def __init__(self, cause: str, *, cure: str = "", file: str | Path | None = None, place: str = "") -> None:
         self.cause = cause
         self.cure = cure
         self.file = str(file) if file is not None else ""

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Literal
-
-import pandas as pd
+from typing import TYPE_CHECKING, Literal
 
 from .errors import AuditError
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 Severity = Literal["error", "warning", "info"]
 
@@ -65,6 +66,8 @@ def stop_on_error(findings: Iterable[Finding]) -> None:
 
 def findings_frame(findings: Iterable[Finding]) -> pd.DataFrame:
     """Table of findings, one a row, worst first."""
+    import pandas as pd
+
     order = {"error": 0, "warning": 1, "info": 2}
     columns = ["severity", "rule", "file", "place", "message", "cure", "accepted"]
     rows = [

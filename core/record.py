@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from .errors import ReadError
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 FloatArray = np.ndarray
 
@@ -78,6 +81,8 @@ class Record:
     @property
     def frame(self) -> pd.DataFrame:
         """All channels as a DataFrame."""
+        import pandas as pd
+
         return pd.DataFrame(dict(self.channels))
 
     def with_channels(self, step: str, **channels: FloatArray) -> Record:

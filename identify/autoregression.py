@@ -1,0 +1,213 @@
+"""Noise of a record as an autoregressive process: spectral density at low frequency, and how sure it is.
+
+Force noise in a towing tank is never white: the flow, the carriage and the rails remember. What decides the
+standard error of a mean or of a harmonic is the noise density at that one low frequency. It is estimated
+here from block means (which keep the low frequencies and drop the electrical noise that would hide a slow
+component from a short autoregression) by Burg's recursion with the order chosen by AICc.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.errors import FitError
+
+TARGET_BLOCKS = 512
+MAX_ORDER = 20
+# Orders tried in a row without a better AICc before the recursion stops.
+PATIENCE = 5
+# Block means distort the spectrum above this many cycles a block.
+MAX_CYCLES_PER_BLOCK = 0.125
+
+
+@dataclass(frozen=True, eq=False)
+class AutoregressiveNoise:
+    """Autoregressions of several channels, a_0 x_t + a_1 x_(t-1) + ... = e_t with a_0 = 1.
+
+    Attributes
+    ----------
+    coefficients : ndarray, shape (k, p + 1)
+        Prediction-error filters of the block means; zero beyond each channel's order.
+    innovation : ndarray, shape (k,)
+        Variance of e_t; zero for a constant channel.
+    order : ndarray of int, shape (k,)
+        Order chosen for each channel.
+    variance : ndarray, shape (k,)
+        Variance of the samples themselves.
+    samples, blocks, block : int
+        Samples in the record, block means used, samples in a block.
+    fitted : tuple of (float, int)
+        Frequencies (cycles a sample) that a fit removed from the record before, with the number of
+        regressors at each: the mean is ``(0, 1)``, a cosine and a sine are ``(f, 2)``.
+    """
+
+    coefficients: np.ndarray
+    innovation: np.ndarray
+    order: np.ndarray
+    variance: np.ndarray
+    samples: int
+    blocks: int
+    block: int
+    fitted: tuple[tuple[float, int], ...] = ((0.0, 1),)
+
+    def density(self, frequencies: np.ndarray | Sequence[float]) -> np.ndarray:
+        """Two-sided noise density S, shape (m, k), at `frequencies` (m,) in cycles a sample.
+
+        Normalised so that white noise has S = variance, var(mean) = S(0)/n, and the coefficient of a cosine
+        at f has variance 2 S(f)/n. Corrected to first order for the power that the fitted regressors took
+        away and for the bias of the autoregression (Kendall 1954; Shaman and Stine 1988).
+        """
+        asked = np.asarray(frequencies, dtype=float)
+        both = self._raw_density(np.concatenate([asked, [f for f, _ in self.fitted]]))
+        raw, at = both[: asked.size], both[asked.size :]
+        peak = np.maximum(at.max(axis=0, initial=0.0), 1e-300)
+        lost = 1.0 + 2.0 * (np.array([count for _, count in self.fitted]) @ at) / peak
+        # Beyond a factor e the record is too short to say anything; the degrees of freedom tell that.
+        share = lost * raw / np.maximum(self.variance * self.samples, 1e-300)
+        return raw * np.exp(np.minimum(share, 1.0))
+
+    def dof(self, frequencies: np.ndarray | Sequence[float]) -> np.ndarray:
+        """Chi-square degrees of freedom of :meth:`density`, shape (m, k).
+
+        From the large-sample variance of ln S by the delta method, var = (2 + g' sigma^2 Gamma^-1 g)/blocks,
+        g the gradient by the coefficients, with Gamma inverted by the formula of Gohberg and Semencul.
+        """
+        f = np.asarray(frequencies, dtype=float) * self.block
+        result = np.full((f.size, self.order.size), float(self.blocks - 1))
+        for channel, order in enumerate(self.order):
+            if order == 0:
+                continue
+            a = self.coefficients[channel, : order + 1]
+            phasors = np.exp(-2j * np.pi * np.outer(f, np.arange(order + 1)))
+            gradient = -2.0 * np.real(phasors[:, 1:] / (phasors @ a)[:, None])
+            ahead, back = np.zeros_like(gradient), np.zeros_like(gradient)
+            for lag in range(order):
+                ahead[:, : order - lag] += a[lag] * gradient[:, lag:]
+                back[:, : order - lag] += a[order - lag] * gradient[:, lag:]
+            spread = 2.0 + (ahead**2).sum(axis=1) - (back**2).sum(axis=1)
+            result[:, channel] = 2.0 * self.blocks / spread
+        # Fewer than two degrees of freedom give an interval without a finite variance: no more can be said.
+        return np.clip(result, 2.0, max(self.blocks - 1.0, 2.0))
+
+    def _raw_density(self, frequencies: np.ndarray) -> np.ndarray:
+        lags = np.arange(self.coefficients.shape[1])
+        transfer = np.exp(-2j * np.pi * self.block * np.outer(frequencies, lags)) @ self.coefficients.T
+        density = self.block * self.innovation / np.maximum(np.abs(transfer) ** 2, 1e-300)
+        if self.block > 1:
+            attenuation = np.sinc(self.block * frequencies) / np.sinc(frequencies)
+            density = density / attenuation[:, None] ** 2
+        return density
+
+
+def fit_autoregression(
+    noise: np.ndarray,
+    *,
+    highest_frequency: float = 0.0,
+    fitted: Sequence[tuple[float, int]] = ((0.0, 1),),
+) -> AutoregressiveNoise:
+    """Fit an autoregression to each column of `noise`.
+
+    Parameters
+    ----------
+    noise : ndarray, shape (n,) or (n, k)
+        Residuals, uniformly sampled. The mean is removed here.
+    highest_frequency : float
+        Highest frequency, cycles a sample, at which the density will be asked; limits the block length.
+    fitted : sequence of (float, int)
+        What was fitted and removed before: frequency and number of regressors.
+
+    Raises
+    ------
+    FitError
+        If there is no sample or a value is not finite.
+    """
+    x = np.asarray(noise, dtype=float)
+    x = x[None, :] if x.ndim == 1 else x.T
+    n = x.shape[1]
+    if n == 0:
+        raise FitError("there is no sample to estimate noise from", cure="widen the window")
+    centre = x.mean(axis=1, keepdims=True)
+    if not np.isfinite(centre).all():
+        raise FitError("the channel holds values that are not finite", cure="fill or cut the gaps first")
+    x = x - centre
+    variance = np.einsum("ij,ij->i", x, x) / max(n - 1, 1)
+    # A constant channel leaves only the rounding of its own mean behind.
+    constant = variance <= (4.0 * np.finfo(float).eps * np.abs(centre[:, 0])) ** 2 * n
+    variance = np.where(constant, 0.0, variance)
+
+    block = max(n // TARGET_BLOCKS, 1)
+    if highest_frequency > 0.0:
+        block = min(block, max(int(MAX_CYCLES_PER_BLOCK / highest_frequency), 1))
+    blocks = n // block
+    if block > 1:
+        x = x[:, n - blocks * block :].reshape(-1, blocks, block) @ np.full(block, 1.0 / block)
+        x -= x.mean(axis=1, keepdims=True)
+    fits = [burg_recursion(row, min(MAX_ORDER, blocks // 5)) for row in x]
+    order = np.array([0 if flat else filter_.size - 1 for (filter_, _), flat in zip(fits, constant)])
+    coefficients = np.zeros((len(fits), int(order.max()) + 1))
+    for row, (filter_, _), p in zip(coefficients, fits, order):
+        row[: p + 1] = filter_[: p + 1]
+    innovation = np.array([power for _, power in fits])
+    return AutoregressiveNoise(
+        coefficients=coefficients,
+        innovation=np.where(constant, 0.0, innovation),
+        order=order,
+        variance=variance,
+        samples=n,
+        blocks=blocks,
+        block=block,
+        fitted=tuple(fitted),
+    )
+
+
+def burg_recursion(row: np.ndarray, max_order: int) -> tuple[np.ndarray, float]:
+    """Burg's autoregression of one centred series, order by AICc.
+
+    Parameters
+    ----------
+    row : ndarray, shape (m,)
+        Centred series.
+    max_order : int
+        Highest order tried; the recursion stops earlier after five orders without a gain.
+
+    Returns
+    -------
+    coefficients : ndarray, shape (p + 1,)
+        Prediction-error filter of the chosen order p, first element 1.
+    innovation : float
+        Innovation variance.
+    """
+    m = row.size
+    energy = float(row @ row)
+    power = energy / max(m - 1, 1)
+    reflections: list[float] = []
+    order, innovation = 0, power
+    if power > 0.0 and max_order > 0:
+        criterion = m * math.log(power) + 2.0 * m / (m - 2)
+        ahead, back, denominator = row, row, 2.0 * energy
+        for p in range(1, max_order + 1):
+            denominator -= float(ahead[0]) ** 2 + float(back[-1]) ** 2
+            if denominator <= 1e-14 * energy:
+                break
+            ahead, back = ahead[1:], back[:-1]
+            reflection = -2.0 * float(ahead @ back) / denominator
+            if not abs(reflection) < 1.0:
+                break
+            reflections.append(reflection)
+            ahead, back = ahead + reflection * back, back + reflection * ahead
+            denominator *= 1.0 - reflection**2
+            power *= 1.0 - reflection**2
+            trial = m * math.log(power) + 2.0 * m * (p + 1) / (m - p - 2)
+            if trial < criterion:
+                criterion, order, innovation = trial, p, power
+            elif p - order >= PATIENCE:
+                break
+    coefficients = np.ones(1)
+    for reflection in reflections[:order]:
+        longer = np.append(coefficients, 0.0)
+        coefficients = longer + reflection * longer[::-1]
+    return coefficients, innovation
