@@ -181,6 +181,12 @@ class LinearMap:
             self.source, other.target, other.matrix @ self.matrix, other.matrix @ self.offset + other.offset
         )
 
+    def without_cancelled(self) -> LinearMap:
+        """Copy without the rows in which a series and its inverse have met and left nothing."""
+        kept = (np.abs(self.matrix).max(axis=1, initial=0.0) > 1e-14) | (self.offset != 0.0)
+        target = tuple(term for term, keep in zip(self.target, kept, strict=True) if keep)
+        return LinearMap(self.source, target, self.matrix[kept], self.offset[kept])
+
 
 def _identity(terms: Sequence[Term]) -> LinearMap:
     return LinearMap(tuple(terms), tuple(terms), np.eye(len(terms)), np.zeros(len(terms)))
@@ -295,28 +301,28 @@ _RIGID_BODY = (
     ("Yvdot", -1.0, 0.0, 0.0),
     ("Yrdot", 0.0, -1.0, 0.0),
     ("Yr", -1.0, 0.0, 0.0),
+    ("Yru", -1.0, 0.0, 0.0),
     ("Nvdot", 0.0, -1.0, 0.0),
     ("Nrdot", 0.0, 0.0, -1.0),
     ("Nr", 0.0, -1.0, 0.0),
+    ("Nru", 0.0, -1.0, 0.0),
+)
+
+_MUNK = (
+    ("Xrr", "Yrdot", -1.0),
+    ("Nv", "Yvdot", 1.0),
+    ("Nvu", "Yvdot", 1.0),
+    ("Nv", "Xudot", -1.0),
+    ("Nvu", "Xudot", -1.0),
+    ("Nr", "Yrdot", 1.0),
+    ("Nru", "Yrdot", 1.0),
 )
 
 _CORIOLIS: dict[str, tuple[tuple[str, str, float], ...]] = {
     # (derivative, acceleration derivative, factor): what each form holds inside
     "outside-with-munk": (),
-    "outside": (
-        ("Xrr", "Yrdot", -1.0),
-        ("Nv", "Yvdot", 1.0),
-        ("Nv", "Xudot", -1.0),
-        ("Nr", "Yrdot", 1.0),
-    ),
-    "inside": (
-        ("Xrr", "Yrdot", -1.0),
-        ("Nv", "Yvdot", 1.0),
-        ("Nv", "Xudot", -1.0),
-        ("Nr", "Yrdot", 1.0),
-        ("Yr", "Xudot", 1.0),
-        ("Xvr", "Yvdot", -1.0),
-    ),
+    "outside": _MUNK,
+    "inside": (*_MUNK, ("Yr", "Xudot", 1.0), ("Yru", "Xudot", 1.0), ("Xvr", "Yvdot", -1.0)),
 }
 
 
@@ -402,21 +408,15 @@ def conversion_map(
     ConventionError
         When the conversion is not exact or lacks data.
     """
-    total = _identity(terms)
-
-    def go(make: Callable[[tuple[Term, ...]], LinearMap]) -> None:
-        nonlocal total
-        total = total.then(make(total.target))
-
     here = a.but(force_scaling="LT", **_SIGNS_OF_HOME)
     there = b.but(force_scaling="LT", **_SIGNS_OF_HOME)
-    go(lambda now: _diagonal(now, _scale_factors(now, a, here, ship, reference_speed)))
-    go(lambda now: _diagonal(now, _sign_factors(now, a, here)))
+    total = _diagonal(terms, _scale_factors(terms, a, here, ship, reference_speed))
+    total = total.then(_diagonal(terms, _sign_factors(terms, a, here)))
     if here != there:
-        _series_steps(go, here, there, ship)
-    go(lambda now: _diagonal(now, _sign_factors(now, there, b)))
-    go(lambda now: _diagonal(now, _scale_factors(now, there, b, ship, reference_speed)))
-    return total
+        total = total.then(_series_steps(terms, here, there, ship))
+    now = total.target
+    total = total.then(_diagonal(now, _sign_factors(now, there, b)))
+    return total.then(_diagonal(now, _scale_factors(now, there, b, ship, reference_speed)))
 
 
 _SIGNS_OF_HOME = {
@@ -424,34 +424,47 @@ _SIGNS_OF_HOME = {
 }
 
 
-def _series_steps(
-    go: Callable[[Callable[[tuple[Term, ...]], LinearMap]], None], a: Conventions, b: Conventions, ship: Ship
-) -> None:
-    """Steps between conventions that differ in more than scales and signs."""
+def _series_steps(terms: Sequence[Term], a: Conventions, b: Conventions, ship: Ship) -> LinearMap:
+    """Map between conventions that differ in more than scales and signs."""
+    total = _identity(terms)
+
+    def go(make: Callable[[tuple[Term, ...]], LinearMap]) -> None:
+        nonlocal total
+        total = total.then(make(total.target))
+
     at_a, at_b = origin_position(a, ship), origin_position(b, ship)
     same_inertia = (a.rigid_body_inertia, a.added_mass_coriolis) == (
         b.rigid_body_inertia,
         b.added_mass_coriolis,
     )
     new_frame = at_a != at_b or not same_inertia
-    new_speed = a.velocity_scale != b.velocity_scale
-    stays_drift = a.sway_variable == b.sway_variable == "beta" and not (new_frame or new_speed)
-
+    stays_drift = a.sway_variable == b.sway_variable == "beta" and not (
+        new_frame or a.velocity_scale != b.velocity_scale
+    )
     if a.sway_variable == "beta" and not stays_drift:
         forward = _DRIFT_TO_SWAY[a.velocity_scale]
         go(lambda now: _change(now, lambda n: Substitution({"beta": _odd_series("v", forward(n))}, {})))
-    if new_frame:
-        if at_a:
-            go(lambda now: _shift_origin(now, -at_a, a.velocity_scale))
-        if a.rigid_body_inertia != b.rigid_body_inertia:
-            sign = 1.0 if b.rigid_body_inertia == "inside" else -1.0
-            go(lambda now: _rigid_body(now, ship, sign))
+    if new_frame and at_a:
+        go(lambda now: _shift_origin(now, -at_a, a.velocity_scale))
+    scale = a.velocity_scale
+    if not same_inertia:
+        # The inertia forces are m u r, m v r, ...: on the path u = U0 they are single terms of a set that is
+        # scaled by the approach speed, so that is where they are moved.
+        if scale == "instantaneous":
+            go(lambda now: _change_speed(now, "approach"))
+            scale = "approach"
+        # Xudot and Yvdot are added masses only while the ship's own mass is outside.
+        if a.rigid_body_inertia == "inside":
+            go(lambda now: _rigid_body(now, ship, -1.0))
         if a.added_mass_coriolis != b.added_mass_coriolis:
             go(lambda now: _coriolis(now, a.added_mass_coriolis, b.added_mass_coriolis))
-        if at_b:
-            go(lambda now: _shift_origin(now, at_b, a.velocity_scale))
-    if new_speed:
+        if b.rigid_body_inertia == "inside":
+            go(lambda now: _rigid_body(now, ship, 1.0))
+    if scale != b.velocity_scale:
         go(lambda now: _change_speed(now, b.velocity_scale))
+    if new_frame and at_b:
+        go(lambda now: _shift_origin(now, at_b, b.velocity_scale))
     if b.sway_variable == "beta" and not stays_drift:
         backward = _SWAY_TO_DRIFT[b.velocity_scale]
         go(lambda now: _change(now, lambda n: Substitution({"v": _odd_series("beta", backward(n))}, {})))
+    return total.without_cancelled()

@@ -142,6 +142,26 @@ def test_added_mass_moves_into_yr_and_xvr():
     inside = make_set().to("added-mass-inside")
     assert inside["Yr"] == pytest.approx(0.083 - 0.022)
     assert inside["Xvr"] == pytest.approx(0.002 + 0.223)
+    # -mx u r with u = U sqrt(1 - v'^2) is -mx' (r' - v'^2 r'/2)
+    assert inside["Yvvr"] == pytest.approx(0.379 + 0.022 / 2)
+
+
+@pytest.mark.parametrize("form", ["inside", "outside-with-munk"])
+def test_added_mass_inside_is_the_coriolis_force(form):
+    start, m = make_set({**VALUES, "Yrdot": 0.0}), motion(0.02)
+    other = start.to(Conventions(added_mass_coriolis=form))
+    scale = 0.5 * SHIP.rho * SHIP.L**2 * SHIP.T
+    mx, my = 0.022 * scale, 0.223 * scale
+    change = {c: other.forces(m)[c] - start.forces(m)[c] for c in "XYN"}
+    munk = form == "outside-with-munk"
+    expected = {
+        "X": 0.0 if munk else my * m["v"] * m["r"],
+        "Y": 0.0 if munk else -mx * m["surge"] * m["r"],
+        "N": (my - mx) * m["surge"] * m["v"] if munk else 0.0,
+    }
+    for component in "XYN":
+        size = np.abs(start.forces(m)[component]).max()
+        np.testing.assert_allclose(change[component], expected[component], atol=2e-6 * size)
 
 
 def test_added_mass_needs_the_acceleration_derivative():
