@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -126,6 +126,31 @@ def find_column(
     close = difflib.get_close_matches(wanted.lower(), by_lower_case, n=3, cutoff=0.5)
     guess = f"closest: {', '.join(by_lower_case[name] for name in close)}; " if close else ""
     raise ReadError(f"there is no column '{wanted}'", cure=guess + have, file=file or None, place=place)
+
+
+def choose_columns(
+    wanted: Iterable[str | int] | None,
+    names: Sequence[str],
+    text_columns: Collection[str] = (),
+    *,
+    file: str = "",
+) -> list[str]:
+    """Names of the columns to be read, in the order asked for; all columns of numbers if `wanted` is None.
+
+    Raises
+    ------
+    ReadError
+        If there is no such column, or it is one of `text_columns`.
+    """
+    if wanted is None:
+        return [name for name in names if name not in text_columns]
+    chosen = list(dict.fromkeys(find_column(one, names, file=file) for one in wanted))
+    for name in chosen:
+        if name in text_columns:
+            raise ReadError(
+                f"column '{name}' holds text, not numbers", cure="map a column of numbers", file=file or None
+            )
+    return chosen
 
 
 def number_repeats(names: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:

@@ -20,6 +20,9 @@ TARGET_BLOCKS = 512
 MAX_ORDER = 20
 # Orders tried in a row without a better AICc before the recursion stops.
 PATIENCE = 5
+# Lines of the periodogram averaged to replace one that a fit emptied.
+NEIGHBOURS = 6
+GOLDEN_ANGLE = 2.399963
 # Block means distort the spectrum above this many cycles a block.
 MAX_CYCLES_PER_BLOCK = 0.125
 
@@ -40,9 +43,6 @@ class AutoregressiveNoise:
         Variance of the samples themselves.
     samples, blocks, block : int
         Samples in the record, block means used, samples in a block.
-    fitted : tuple of (float, int)
-        Frequencies (cycles a sample) that a fit removed from the record before, with the number of
-        regressors at each: the mean is ``(0, 1)``, a cosine and a sine are ``(f, 2)``.
     """
 
     coefficients: np.ndarray
@@ -52,22 +52,17 @@ class AutoregressiveNoise:
     samples: int
     blocks: int
     block: int
-    fitted: tuple[tuple[float, int], ...] = ((0.0, 1),)
 
     def density(self, frequencies: np.ndarray | Sequence[float]) -> np.ndarray:
         """Two-sided noise density S, shape (m, k), at `frequencies` (m,) in cycles a sample.
 
         Normalised so that white noise has S = variance, var(mean) = S(0)/n, and the coefficient of a cosine
-        at f has variance 2 S(f)/n. Corrected to first order for the power that the fitted regressors took
-        away and for the bias of the autoregression (Kendall 1954; Shaman and Stine 1988).
+        at f has variance 2 S(f)/n. Corrected for the downward bias of an autoregression fitted to a short
+        record (Kendall 1954), which is about two effective samples' worth.
         """
-        asked = np.asarray(frequencies, dtype=float)
-        both = self._raw_density(np.concatenate([asked, [f for f, _ in self.fitted]]))
-        raw, at = both[: asked.size], both[asked.size :]
-        peak = np.maximum(at.max(axis=0, initial=0.0), 1e-300)
-        lost = 1.0 + 2.0 * (np.array([count for _, count in self.fitted]) @ at) / peak
+        raw = self._raw_density(np.asarray(frequencies, dtype=float))
         # Beyond a factor e the record is too short to say anything; the degrees of freedom tell that.
-        share = lost * raw / np.maximum(self.variance * self.samples, 1e-300)
+        share = 2.0 * raw / np.maximum(self.variance * self.samples, 1e-300)
         return raw * np.exp(np.minimum(share, 1.0))
 
     def dof(self, frequencies: np.ndarray | Sequence[float]) -> np.ndarray:
@@ -118,7 +113,8 @@ def fit_autoregression(
     highest_frequency : float
         Highest frequency, cycles a sample, at which the density will be asked; limits the block length.
     fitted : sequence of (float, int)
-        What was fitted and removed before: frequency and number of regressors.
+        What was fitted and removed before: frequency in cycles a sample, and number of regressors there;
+        the mean is ``(0, 1)``, a cosine and a sine are ``(f, 2)``.
 
     Raises
     ------
@@ -126,7 +122,7 @@ def fit_autoregression(
         If there is no sample or a value is not finite.
     """
     x = np.asarray(noise, dtype=float)
-    x = x[None, :] if x.ndim == 1 else x.T
+    x = x[None, :] if x.ndim == 1 else np.ascontiguousarray(x.T)
     n = x.shape[1]
     if n == 0:
         raise FitError("there is no sample to estimate noise from", cure="widen the window")
@@ -146,6 +142,8 @@ def fit_autoregression(
     if block > 1:
         x = x[:, n - blocks * block :].reshape(-1, blocks, block) @ np.full(block, 1.0 / block)
         x -= x.mean(axis=1, keepdims=True)
+    if fitted and blocks > 4:
+        x = x + _power_taken_by_fit(x, [(f * block, count) for f, count in fitted])
     fits = [burg_recursion(row, min(MAX_ORDER, blocks // 5)) for row in x]
     order = np.array([0 if flat else filter_.size - 1 for (filter_, _), flat in zip(fits, constant)])
     coefficients = np.zeros((len(fits), int(order.max()) + 1))
@@ -160,8 +158,36 @@ def fit_autoregression(
         samples=n,
         blocks=blocks,
         block=block,
-        fitted=tuple(fitted),
     )
+
+
+def _power_taken_by_fit(rows: np.ndarray, fitted: Sequence[tuple[float, int]]) -> np.ndarray:
+    """Series that put the expected power back into the lines that a fit emptied, shape (k, m).
+
+    A regression with q regressors at a frequency takes q times the noise density out of that line. Left
+    empty, these lines pull the autoregression down exactly where its density is wanted. The density is read
+    from the nearest lines of the periodogram that no regressor touched.
+    """
+    k, m = rows.shape
+    spectrum = np.fft.rfft(rows, axis=1)
+    power = (spectrum.real**2 + spectrum.imag**2) / m
+    untouched = np.ones(power.shape[1], dtype=bool)
+    for f, _ in fitted:
+        untouched[max(math.ceil(f * m - 0.75), 0) : math.floor(f * m + 0.75) + 1] = False
+    clean = np.flatnonzero(untouched)
+    back = np.zeros((k, m))
+    if clean.size == 0:
+        return back
+    steps = np.arange(m)
+    for turn, (f, count) in enumerate(fitted):
+        first = int(np.searchsorted(clean, f * m)) - NEIGHBOURS // 2
+        first = max(min(first, clean.size - NEIGHBOURS), 0)
+        near = power[:, clean[first : first + NEIGHBOURS]]
+        density = near.sum(axis=1) / near.shape[1]
+        # A constant of c carries m c^2, a cosine of amplitude A carries m A^2 / 2; any phase will do.
+        shape = math.sqrt(2.0) * np.cos(2.0 * math.pi * f * steps + GOLDEN_ANGLE * turn) if f > 0.0 else 1.0
+        back += np.sqrt(count * density / m)[:, None] * shape
+    return back
 
 
 def burg_recursion(row: np.ndarray, max_order: int) -> tuple[np.ndarray, float]:
@@ -183,22 +209,24 @@ def burg_recursion(row: np.ndarray, max_order: int) -> tuple[np.ndarray, float]:
     """
     m = row.size
     energy = float(row @ row)
-    power = energy / max(m - 1, 1)
+    power = energy / m
     reflections: list[float] = []
     order, innovation = 0, power
     if power > 0.0 and max_order > 0:
         criterion = m * math.log(power) + 2.0 * m / (m - 2)
-        ahead, back, denominator = row, row, 2.0 * energy
+        # Forward errors in the first row, backward errors in the second; dropping both ends of the flat
+        # array advances the first and delays the second by one sample.
+        errors, denominator = np.concatenate([row, row]), 2.0 * energy
         for p in range(1, max_order + 1):
-            denominator -= float(ahead[0]) ** 2 + float(back[-1]) ** 2
+            denominator -= float(errors[0]) ** 2 + float(errors[-1]) ** 2
             if denominator <= 1e-14 * energy:
                 break
-            ahead, back = ahead[1:], back[:-1]
-            reflection = -2.0 * float(ahead @ back) / denominator
+            pair = errors[1:-1].reshape(2, -1)
+            reflection = -2.0 * float(pair[0] @ pair[1]) / denominator
             if not abs(reflection) < 1.0:
                 break
             reflections.append(reflection)
-            ahead, back = ahead + reflection * back, back + reflection * ahead
+            errors = (pair + reflection * pair[::-1]).ravel()
             denominator *= 1.0 - reflection**2
             power *= 1.0 - reflection**2
             trial = m * math.log(power) + 2.0 * m * (p + 1) / (m - p - 2)

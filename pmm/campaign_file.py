@@ -1,0 +1,266 @@
+"""The campaign file: a TOML description of a captive-test campaign, validated key by key."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+
+from ..core.conventions import Conventions
+from ..core.errors import CampaignError, TowtankError
+from ..core.hull_models import HULL_MODELS, hull_model
+from ..core.ship import Ship
+from ..core.terms import Term, parse_terms
+from ..formats.channels import ChannelMap
+
+
+class _Section(BaseModel):
+    model_config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
+
+
+class Heading(_Section):
+    """``[campaign]``: what this is."""
+
+    name: str
+    source: str = ""
+    virtual: bool = False
+    notes: str = ""
+
+
+class Reader(_Section):
+    """``[reader]``: how files are read."""
+
+    format: str = "auto"
+    sheet: str | None = None
+    group: str | None = None
+    condition: str | None = None
+
+
+class Inertia(_Section):
+    """``[inertia]``: rigid-body inertia in the measured forces.
+
+    ``inside`` says whether the balance carries the model's mass; ``mass``, ``xG`` and ``Izz`` (about the centre
+    of gravity) are those of everything that hangs on the balance, mount included. ``dry_runs = true`` finds
+    them from oscillation runs in air instead.
+    """
+
+    inside: bool = False
+    mass: float | None = Field(default=None, gt=0)
+    xG: float = 0.0
+    Izz: float | None = Field(default=None, gt=0)
+    mount_mass: float = Field(default=0.0, ge=0)
+    dry_runs: bool = False
+
+    @model_validator(mode="after")
+    def _complete(self) -> Inertia:
+        if self.inside and not self.dry_runs and (self.mass is None or self.Izz is None):
+            raise ValueError("inside = true needs mass and Izz, or dry_runs = true")
+        return self
+
+
+class Reduction(_Section):
+    """``[reduction]``: steps from records to means and harmonics, each with its default."""
+
+    tare_window: tuple[float, float] | None = None
+    lowpass: float = Field(default=0.0, ge=0)
+    window: Literal["fraction", "mser", "key-times"] = "fraction"
+    fraction: tuple[float, float] = (0.30, 0.95)
+    start: float | None = None
+    stop: float | None = None
+    skip_cycles: int = Field(default=1, ge=0)
+    max_cycles: int | None = Field(default=None, ge=1)
+    harmonics: int = Field(default=3, ge=1, le=12)
+    motion: Literal["prescribed", "measured"] = "prescribed"
+    motion_harmonics: int = Field(default=5, ge=1, le=20)
+    frequency: Literal["given", "found"] = "given"
+    position_x: float = 0.0
+    moment_x: float = 0.0
+    nondimensional_speed: Literal["instantaneous", "approach"] = "instantaneous"
+
+    @field_validator("fraction")
+    @classmethod
+    def _ordered(cls, value: tuple[float, float]) -> tuple[float, float]:
+        if not 0 <= value[0] < value[1] <= 1:
+            raise ValueError("two increasing numbers between 0 and 1 are expected")
+        return value
+
+
+class SharedBias(_Section):
+    """``[fit.shared_bias]``: standard uncertainties that all runs share (type B).
+
+    Gains are relative; offsets are in SI (N, Nm, rad, m/s, m).
+    """
+
+    gain: dict[str, float] = Field(default_factory=dict)
+    offset: dict[str, float] = Field(default_factory=dict)
+    speed: float = Field(default=0.0, ge=0)
+    drift_angle: float = Field(default=0.0, ge=0)
+    moment_x: float = Field(default=0.0, ge=0)
+
+
+class Fit(_Section):
+    """``[fit]``: hull model and estimator."""
+
+    model: str | None = None
+    terms: list[str] | None = None
+    domain: Literal["harmonic", "time"] = "harmonic"
+    estimator: Literal["wls", "ols", "huber", "ridge", "tsvd", "constrained"] = "wls"
+    covariance: Literal["model", "cluster", "bootstrap"] = "model"
+    staged: bool = False
+    group_by: list[Literal["depth", "speed", "heel"]] = Field(default_factory=lambda: ["depth"])
+    scaling: str = "lt"
+    candidates: list[str] = Field(default_factory=list)
+    range_limits: list[float] = Field(default_factory=list)
+    bounds: dict[str, tuple[float | None, float | None]] = Field(default_factory=dict)
+    fixed: dict[str, float] = Field(default_factory=dict)
+    prior: str | None = None
+    prior_relative_sd: float = Field(default=0.30, gt=0)
+    huber_c: float = Field(default=1.345, gt=0)
+    replicates: int = Field(default=1000, ge=100)
+    seed: int = 0
+    shared_bias: SharedBias = Field(default_factory=SharedBias)
+
+    @model_validator(mode="after")
+    def _readable(self) -> Fit:
+        if self.model and self.terms:
+            raise ValueError("give model or terms, not both")
+        try:
+            self.hull_terms()
+            for name in self.candidates:
+                candidate_terms(name)
+        except TowtankError as error:
+            raise ValueError(str(error)) from None
+        return self
+
+    def hull_terms(self) -> tuple[Term, ...] | None:
+        """Terms to fit, or None when the run types decide."""
+        if self.terms is not None:
+            return parse_terms(self.terms)
+        return hull_model(self.model) if self.model else None
+
+
+def candidate_terms(text: str) -> tuple[Term, ...]:
+    """Terms of a candidate: the name of a model, or names of terms separated by spaces."""
+    return hull_model(text) if text in HULL_MODELS else parse_terms(text.split())
+
+
+class RunGroup(_Section):
+    """``[[runs]]``: files of one kind, or a test matrix.
+
+    Parameters of the runs are numbers, or lists with one entry a file; ``pattern`` is a regular expression whose
+    named groups are parameters read from the file names. ``matrix`` names a table with a column ``file`` or
+    ``name``, a column ``type`` and one column a parameter.
+    """
+
+    model_config = ConfigDict(extra="allow", arbitrary_types_allowed=True)
+
+    type: str | None = None
+    files: str | list[str] | None = None
+    matrix: str | None = None
+    pattern: str | None = None
+    tare: str = ""
+    series: str = ""
+
+
+class Points(_Section):
+    """``[points]``: already reduced runs, one a row: mean forces or harmonics, non-dimensional or SI."""
+
+    file: str | None = None
+    table: str | None = None
+    scaling: Literal["LT", "L2", "dimensional"] = "LT"
+    columns: dict[str, str] = Field(default_factory=dict)
+    relative_sd: float | None = Field(default=None, gt=0)
+    sd: dict[str, float] = Field(default_factory=dict)
+
+
+class Output(_Section):
+    """``[output]``: what is written."""
+
+    report: bool = True
+    series_in_report: int = Field(default=6, ge=0)
+    scaling: str = "lt"
+
+
+class CampaignFile(_Section):
+    """A whole campaign file."""
+
+    campaign: Heading
+    ship: dict[str, Any]
+    conventions: dict[str, Any] = Field(default_factory=dict)
+    channels: ChannelMap | None = None
+    reader: Reader = Field(default_factory=Reader)
+    inertia: Inertia = Field(default_factory=Inertia)
+    reduction: Reduction = Field(default_factory=Reduction)
+    runs: list[RunGroup] = Field(default_factory=list)
+    points: Points | None = None
+    fit: Fit = Field(default_factory=Fit)
+    simulate: dict[str, Any] = Field(default_factory=dict)
+    output: Output = Field(default_factory=Output)
+    accept: list[str] = Field(default_factory=list)
+
+    @model_validator(mode="after")
+    def _something_to_fit(self) -> CampaignFile:
+        if not self.runs and self.points is None:
+            raise ValueError("a campaign needs [[runs]] or [points]")
+        if self.runs and self.channels is None:
+            raise ValueError("[[runs]] need a [channels] map")
+        return self
+
+    def make_ship(self) -> Ship:
+        """The ship of the campaign."""
+        return Ship.from_dict(self.ship)
+
+    def make_conventions(self) -> Conventions:
+        """Conventions of the measured data and of the test matrix."""
+        return Conventions.from_dict(self.conventions)
+
+
+def load_campaign_file(path: str | Path) -> CampaignFile:
+    """Read and validate a campaign file.
+
+    Raises
+    ------
+    CampaignError
+        When the file is missing, is not TOML, or a key is wrong; the message names the key.
+    """
+    path = Path(path)
+    try:
+        text = path.read_bytes().decode("utf-8")
+        data = tomllib.loads(text)
+    except FileNotFoundError:
+        raise CampaignError("file not found", cure="give the path of a campaign.toml", file=path) from None
+    except IsADirectoryError:
+        raise CampaignError("this is a folder", cure="give the campaign.toml inside it", file=path) from None
+    except UnicodeDecodeError:
+        raise CampaignError("not a text file", cure="a campaign file is TOML in utf-8", file=path) from None
+    except OSError as error:
+        raise CampaignError(f"not readable: {error.strerror}", file=path) from None
+    except tomllib.TOMLDecodeError as error:
+        raise CampaignError(f"not valid TOML: {error}", cure="mend the syntax there", file=path) from None
+    return validated(data, path)
+
+
+def validated(data: dict[str, Any], path: Path) -> CampaignFile:
+    """Campaign from a mapping, with errors that name the key."""
+    try:
+        campaign = CampaignFile.model_validate(data)
+        campaign.make_ship()
+        campaign.make_conventions()
+    except ValidationError as error:
+        first = error.errors()[0]
+        key = ".".join(str(part) for part in first["loc"])
+        message = first["msg"].removeprefix("Value error, ")
+        if first["type"] == "extra_forbidden":
+            message = "unknown key"
+        more = f" (and {error.error_count() - 1} more)" if error.error_count() > 1 else ""
+        raise CampaignError(
+            f"{message}{more}",
+            cure="see the campaign file reference (towtank help-campaign)",
+            file=path,
+            place=f"key '{key}'" if key else "",
+        ) from None
+    except TowtankError as error:
+        raise CampaignError(error.cause, cure=error.cure, file=path, place=error.place) from None
+    return campaign

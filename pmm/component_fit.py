@@ -1,0 +1,310 @@
+"""Fit of one force component: estimator, covariance, diagnostics, and the linear map from data to coefficients."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..core.errors import FitError
+from ..core.terms import Term
+from ..identify.regression import LinearFit, fit_linear
+from .campaign_file import Fit
+from .force_rows import ForceRows, between_run_scatter
+
+
+@dataclass(frozen=True, eq=False)
+class ComponentFit:
+    """Coefficients of one component.
+
+    Attributes
+    ----------
+    rows : ForceRows
+    params : ndarray, shape (p,)
+    cov : ndarray, shape (p, p)
+        Scatter only (type A).
+    influence : ndarray, shape (p, n)
+        ``params = influence @ response`` (to first order for estimators that are not linear).
+    fit : LinearFit or None
+        Least-squares fit with its diagnostics, on the weights of the estimate.
+    weights : ndarray, shape (n,)
+        Inverse of each row's variance, up to the scale s^2.
+    scatter : float
+        Run-to-run scatter beyond the noise within runs, scaled force.
+    row_sd : ndarray, shape (n,)
+        Standard deviation of each row that the covariance stands on.
+    notes : tuple of str
+    """
+
+    rows: ForceRows
+    params: np.ndarray
+    cov: np.ndarray
+    influence: np.ndarray
+    fit: LinearFit | None
+    weights: np.ndarray
+    scatter: float
+    row_sd: np.ndarray
+    notes: tuple[str, ...] = ()
+    extra: Mapping[str, object] = field(default_factory=dict)
+
+    @property
+    def residual(self) -> np.ndarray:
+        """Response less fit, shape (n,)."""
+        return self.rows.response - self.rows.design @ self.params
+
+    @property
+    def dof(self) -> float:
+        """Degrees of freedom of the residual."""
+        return float(max(len(self.rows.response) - len(self.params), 1))
+
+
+def fit_component(
+    rows: ForceRows,
+    settings: Fit,
+    stages: Sequence[Sequence[str]] | None = None,
+    prior: Mapping[str, float] | None = None,
+) -> ComponentFit:
+    """Fit the coefficients of one component.
+
+    Parameters
+    ----------
+    rows : ForceRows
+    settings : Fit
+    stages : sequence of sequences of str, optional
+        Names fitted in turn, each stage with the earlier ones held fixed, on the rows that hold no later term.
+    prior : mapping of str to float, optional
+        Values towards which the constrained estimator draws, e.g. those of an empirical set.
+
+    Raises
+    ------
+    FitError
+        When a term is not excited, or terms cannot be separated; the message names them.
+    """
+    if len(rows.response) < len(rows.terms):
+        raise FitError(
+            f"{len(rows.response)} data for {len(rows.terms)} terms of {rows.component}",
+            cure="fit fewer terms or add runs",
+        )
+    rows = _unexcited_refused(rows)
+    # Scaling by runs' own noise and by the scatter between runs; without any noise estimate rows count equally.
+    scatter = between_run_scatter(rows)
+    known = bool(np.isfinite(rows.sd).all())
+    weighted = known and settings.estimator != "ols"
+    weights = 1.0 / (rows.sd**2 + scatter**2) if weighted else np.ones(len(rows.response))
+    names = rows.names
+    fixed = {name: value for name, value in settings.fixed.items() if name in names}
+    if fixed:
+        return _with_fixed(rows, settings, stages, prior, fixed)
+    fit = fit_linear(
+        rows.design,
+        rows.response,
+        names,
+        weights=weights,
+        groups=rows.run,
+        covariance="cluster" if settings.covariance == "cluster" else "model",
+    )
+    notes: list[str] = []
+    if not known:
+        notes.append("no noise estimate for some runs: all rows count equally")
+    elif scatter > 0:
+        notes.append(f"scatter between runs {scatter:.3g} added to the noise within runs")
+    params, cov, influence, extra = _estimate(rows, settings, fit, weights, stages, prior, notes)
+    scale = float(fit.scale)
+    row_sd = np.sqrt(scale / weights)
+    return ComponentFit(
+        rows, params, cov, influence, fit, weights, scatter if known else 0.0, row_sd, tuple(notes), extra
+    )
+
+
+def _unexcited_refused(rows: ForceRows) -> ForceRows:
+    size = np.abs(rows.design).max(axis=0, initial=0.0)
+    dead = [name for name, value in zip(rows.names, size, strict=True) if value == 0.0]
+    if dead:
+        raise FitError(
+            f"no run excites {', '.join(dead)}", cure="leave the term out of the model or add runs that vary it"
+        )
+    return rows
+
+
+def _with_fixed(
+    rows: ForceRows,
+    settings: Fit,
+    stages: Sequence[Sequence[str]] | None,
+    prior: Mapping[str, float] | None,
+    fixed: Mapping[str, float],
+) -> ComponentFit:
+    """Fit the rest with some coefficients held at given values, which then carry no uncertainty."""
+    held = np.array([fixed.get(name, 0.0) for name in rows.names])
+    free = [i for i, name in enumerate(rows.names) if name not in fixed]
+    reduced = rows.only(np.arange(len(rows.response)), free)
+    reduced = ForceRows(
+        rows.component,
+        reduced.terms,
+        reduced.design,
+        rows.response - rows.design @ held,
+        rows.sd,
+        rows.run,
+        rows.harmonic,
+    )
+    inner = fit_component(reduced, settings.model_copy(update={"fixed": {}}), stages, prior)
+    params = held.copy()
+    params[free] = inner.params
+    cov = np.zeros((len(held), len(held)))
+    cov[np.ix_(free, free)] = inner.cov
+    influence = np.zeros((len(held), len(rows.response)))
+    influence[free] = inner.influence
+    note = "held fixed: " + ", ".join(f"{name} = {value:g}" for name, value in fixed.items())
+    return ComponentFit(
+        rows,
+        params,
+        cov,
+        influence,
+        inner.fit,
+        inner.weights,
+        inner.scatter,
+        inner.row_sd,
+        (*inner.notes, note),
+        inner.extra,
+    )
+
+
+def _estimate(
+    rows: ForceRows,
+    settings: Fit,
+    fit: LinearFit,
+    weights: np.ndarray,
+    stages: Sequence[Sequence[str]] | None,
+    prior: Mapping[str, float] | None,
+    notes: list[str],
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, dict[str, object]]:
+    params, cov = np.asarray(fit.params, float), np.asarray(fit.cov, float)
+    root = np.sqrt(weights)
+    influence = np.linalg.pinv(rows.design * root[:, None]) * root
+    extra: dict[str, object] = {}
+    if stages is not None:
+        influence = staged_influence(rows, weights, stages)
+        params = influence @ rows.response
+        cov = (influence * (float(fit.scale) / weights)) @ influence.T
+        notes.append("staged: " + " | ".join(" ".join(stage) for stage in stages))
+    elif settings.estimator == "huber":
+        from ..identify.robust import fit_huber
+
+        robust = fit_huber(rows.design * root[:, None], rows.response * root, rows.names, c=settings.huber_c)
+        params, cov = np.asarray(robust.params), np.asarray(robust.cov)
+        loss = root * np.sqrt(np.asarray(robust.weights))
+        influence = np.linalg.pinv(rows.design * loss[:, None]) * loss
+        notes.append(f"Huber loss, c = {settings.huber_c:g} standard deviations")
+    elif settings.estimator in ("ridge", "tsvd"):
+        from ..identify.ridge import fit_ridge, fit_truncated_svd
+
+        fit_method = fit_ridge if settings.estimator == "ridge" else fit_truncated_svd
+        shrunk = fit_method(rows.design * root[:, None], rows.response * root, rows.names, groups=rows.run)
+        params, cov = np.asarray(shrunk.params), np.asarray(shrunk.cov)
+        influence = np.asarray(shrunk.influence) * root
+        notes.append(f"{settings.estimator}: {shrunk.note}; intervals do not hold the bias of shrinking")
+    elif settings.estimator == "constrained":
+        params, cov, influence, extra = _constrained(rows, settings, weights, float(fit.scale), prior, notes)
+    if settings.covariance == "bootstrap":
+        from ..identify.bootstrap import block_bootstrap
+
+        boot = block_bootstrap(
+            rows.design,
+            rows.response,
+            rows.run,
+            weights=weights,
+            n=settings.replicates,
+            seed=settings.seed,
+        )
+        cov = np.asarray(boot.cov)
+        notes.append(f"covariance from {settings.replicates} bootstrap samples of whole runs")
+    return params, cov, influence, extra
+
+
+def staged_influence(rows: ForceRows, weights: np.ndarray, stages: Sequence[Sequence[str]]) -> np.ndarray:
+    """Linear map from data to coefficients when stages are fitted in turn.
+
+    Each stage uses the rows to which no later term contributes, less what the earlier stages explain, so that the
+    uncertainty of an early stage reaches the later ones.
+
+    Raises
+    ------
+    FitError
+        When a stage has too few rows.
+    """
+    names = rows.names
+    n, p = rows.design.shape
+    influence = np.zeros((p, n))
+    done: list[int] = []
+    for number, stage in enumerate(stages, start=1):
+        now = [names.index(name) for name in stage if name in names]
+        if not now:
+            continue
+        later = [i for i in range(p) if i not in done and i not in now]
+        size = np.abs(rows.design).max(axis=0)
+        own = (np.abs(rows.design[:, now]) > 1e-9 * size[now]).any(axis=1)
+        free = ~(np.abs(rows.design[:, later]) > 1e-9 * size[later]).any(axis=1) if later else np.ones(n, bool)
+        use = own & free
+        if use.sum() < len(now):
+            raise FitError(
+                f"stage {number} ({' '.join(names[i] for i in now)}) has {int(use.sum())} data",
+                cure="use the fit of all runs together (staged = false) or add runs of that kind",
+            )
+        root = np.sqrt(weights[use])
+        solve = np.linalg.pinv(rows.design[use][:, now] * root[:, None]) * root
+        rest = np.zeros((int(use.sum()), n))
+        rest[np.arange(len(rest)), np.flatnonzero(use)] = 1.0
+        if done:
+            rest -= rows.design[use][:, done] @ influence[done]
+        influence[now] = solve @ rest
+        done += now
+    if len(done) != p:
+        left = [names[i] for i in range(p) if i not in done]
+        raise FitError(f"no stage fits {', '.join(left)}", cure="name every term in one stage")
+    return influence
+
+
+def default_stages(terms: Sequence[Term]) -> list[list[str]]:
+    """Drift, then yaw, then coupling: the fitting order of the inland-ship paper (MASHCON 2019)."""
+    groups: list[list[str]] = [[], [], []]
+    for term in terms:
+        variables = set(term.variables)
+        drift = bool(variables & {"v", "beta", "vdot"})
+        yaw = bool(variables & {"r", "rdot"})
+        groups[2 if drift and yaw else 1 if yaw else 0].append(term.name)
+    return [group for group in groups if group]
+
+
+def _constrained(
+    rows: ForceRows,
+    settings: Fit,
+    weights: np.ndarray,
+    scale: float,
+    prior: Mapping[str, float] | None,
+    notes: list[str],
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, dict[str, object]]:
+    from ..identify.constrained import fit_constrained
+
+    prior_mean, prior_sd = None, None
+    if prior:
+        prior_mean = np.array([prior.get(name, np.nan) for name in rows.names])
+        prior_sd = np.abs(prior_mean) * settings.prior_relative_sd
+        notes.append(f"prior: {settings.prior}, {100 * settings.prior_relative_sd:g} % standard deviation")
+    bounds = {name: settings.bounds[name] for name in rows.names if name in settings.bounds}
+    result = fit_constrained(
+        rows.design,
+        rows.response,
+        rows.names,
+        weights=weights / scale,
+        bounds=bounds,
+        prior_mean=prior_mean,
+        prior_sd=prior_sd,
+    )
+    if result.active:
+        notes.append("constraints that bind: " + ", ".join(result.active))
+    return (
+        np.asarray(result.params),
+        np.asarray(result.cov),
+        np.asarray(result.influence),
+        {"active": list(result.active)},
+    )

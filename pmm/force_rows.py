@@ -1,0 +1,156 @@
+"""Rows of the regression of one force component: means and harmonics of all runs, with their uncertainty."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.terms import Term
+from .reduced_run import ReducedRun
+
+_NOISY = 4.0
+"""A run whose noise density exceeds the pooled one by this factor keeps its own."""
+
+
+@dataclass(frozen=True, eq=False)
+class ForceRows:
+    """Regression rows of one component.
+
+    Attributes
+    ----------
+    component : str
+    terms : tuple of Term
+    design : ndarray, shape (n, p)
+    response : ndarray, shape (n,)
+        Scaled force (LT).
+    sd : ndarray, shape (n,)
+        Standard error of each row from the noise within its run (pooled over runs of a kind); NaN throughout
+        when some run gives none, and then rows count equally.
+    run : ndarray of int, shape (n,)
+        Index of each row's run.
+    harmonic : ndarray of int, shape (n,)
+        0 mean, 1 cos 1, 2 sin 1, 3 cos 2, ...
+    """
+
+    component: str
+    terms: tuple[Term, ...]
+    design: np.ndarray
+    response: np.ndarray
+    sd: np.ndarray
+    run: np.ndarray
+    harmonic: np.ndarray
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the terms."""
+        return [term.name for term in self.terms]
+
+    def only(self, rows: np.ndarray, columns: Sequence[int] | None = None) -> ForceRows:
+        """The rows of a mask or index, and the columns of `columns`."""
+        keep = list(range(len(self.terms))) if columns is None else list(columns)
+        return ForceRows(
+            self.component,
+            tuple(self.terms[i] for i in keep),
+            self.design[rows][:, keep],
+            self.response[rows],
+            self.sd[rows],
+            self.run[rows],
+            self.harmonic[rows],
+        )
+
+
+def force_rows(runs: Sequence[ReducedRun], terms: Sequence[Term], component: str) -> ForceRows:
+    """Stack the rows of one component over runs.
+
+    Rows to which no term contributes (the mean of Y in pure sway, its second harmonics) say nothing about the
+    coefficients and are left out.
+
+    Parameters
+    ----------
+    runs : sequence of ReducedRun
+    terms : sequence of Term
+        Terms of any component; those of `component` are used.
+    component : {"X", "Y", "N", "K"}
+    """
+    own = tuple(term for term in terms if term.component == component)
+    blocks = []
+    for index, run in enumerate(runs):
+        if component not in run.scaled:
+            continue
+        size = len(run.scaled[component])
+        blocks.append(
+            (
+                run.design(own),
+                run.scaled[component],
+                run.scaled_sd[component],
+                np.full(size, index),
+                np.arange(size),
+            )
+        )
+    if not blocks:
+        empty = np.zeros(0)
+        return ForceRows(
+            component, own, np.zeros((0, len(own))), empty, empty, empty.astype(int), empty.astype(int)
+        )
+    design, response, sd, run_index, harmonic = (np.concatenate(part) for part in zip(*blocks, strict=True))
+    size = np.abs(design).max(axis=0, initial=0.0)
+    active = (np.abs(design) > 1e-9 * np.where(size > 0, size, 1.0)).any(axis=1)
+    rows = ForceRows(component, own, design, response, sd, run_index, harmonic).only(active)
+    return ForceRows(component, own, rows.design, rows.response, _pooled_sd(rows, runs), rows.run, rows.harmonic)
+
+
+def _pooled_sd(rows: ForceRows, runs: Sequence[ReducedRun]) -> np.ndarray:
+    """Standard errors with the noise density pooled over runs of the same kind and harmonic.
+
+    One run's own estimate of its noise is itself noisy; weights made of it would favour runs whose noise was
+    underestimated by chance.
+    """
+    sd = rows.sd
+    if not np.isfinite(sd).all():
+        return np.full(len(sd), np.nan)
+    length = np.array([run.window.count * run.window.step for run in runs])[rows.run]
+    kind = np.array([run.order > 0 for run in runs])[rows.run]
+    # Coefficients of one harmonic share a density; the mean has half the variance of a cosine.
+    band = np.where(rows.harmonic == 0, 0, (rows.harmonic + 1) // 2)
+    density = sd**2 * length
+    floor = max((1e-10 * np.abs(rows.response).max(initial=0.0)) ** 2, np.finfo(float).tiny)
+    density = np.maximum(density, floor * length)
+    pooled = density.copy()
+    for key in {(bool(k), int(b)) for k, b in zip(kind, band, strict=True)}:
+        rows_of = (kind == key[0]) & (band == key[1])
+        if rows_of.sum() >= 3:
+            centre = np.exp(np.log(density[rows_of]).mean())
+            own = density[rows_of]
+            pooled[rows_of] = np.where(own > _NOISY * centre, own, centre)
+    return np.sqrt(pooled / length)
+
+
+def between_run_scatter(rows: ForceRows) -> float:
+    """Scatter from run to run beyond the noise within runs, in units of the scaled force.
+
+    Paule and Mandel (1982): the tau for which ``sum r^2 / (sd^2 + tau^2)`` equals the degrees of freedom; 0 when
+    the noise within the runs explains the residuals.
+    """
+    n, p = rows.design.shape
+    if n <= p or not np.isfinite(rows.sd).all():
+        return 0.0
+
+    def excess(tau: float) -> float:
+        weight = 1.0 / np.hypot(rows.sd, tau)
+        solution = np.linalg.lstsq(rows.design * weight[:, None], rows.response * weight, rcond=None)[0]
+        residual = (rows.response - rows.design @ solution) * weight
+        return float(residual @ residual) - (n - p)
+
+    if excess(0.0) <= 0:
+        return 0.0
+    low, high = 0.0, float(np.abs(rows.response).max())
+    if excess(high) > 0:
+        return high
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if excess(middle) > 0 else (low, middle)
+        if high - low < 1e-4 * high:
+            break
+    return high
