@@ -57,7 +57,7 @@ def scaled_state(
             f"a motion is not scaled by '{conventions.force_scaling}'",
             cure="convert the set to LT or L2 first",
         )
-    x = {name: np.asarray(value, dtype=float) for name, value in motion.items()}
+    x = {name: np.asarray(value, dtype=float) for name, value in motion.items() if name in VARIABLES}
     surge, v, r = x["surge"], x.get("v", np.zeros(())), x.get("r", np.zeros(()))
     lever = origin_position(conventions, ship) * ship.L
     x["surge"], x["r"] = surge, r

@@ -256,7 +256,7 @@ def _diagnostics(runs: Sequence[ReducedRun], components: Mapping[str, ComponentF
         fit = result.fit
         if fit is None:
             continue
-        outlying = sorted({runs[int(result.rows.run[row])].name for row in fit.outlying()})
+        outlying = sorted(runs[int(index)].name for index in fit.outlying())
         leverage = np.zeros(len(runs))
         np.add.at(leverage, result.rows.run, np.asarray(fit.leverage))
         heaviest = np.argsort(leverage)[::-1][:3]

@@ -15,10 +15,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..core.errors import CampaignError
-
-CHANNELS = ("X", "Y", "N", "K")
-"""Channels of a balance, in the order in which their noise is drawn."""
-
+from .reduced_run import FORCES
 
 @dataclass(frozen=True)
 class Noise:
@@ -84,38 +81,45 @@ class Noise:
         )
 
     def gains(self) -> dict[str, float]:
-        """Gain of each channel of :data:`CHANNELS` in this campaign, 1 where there is no bias."""
-        errors = self.stream("gain shared by all runs").standard_normal(len(CHANNELS))
-        return {name: 1.0 + self.gain_bias * float(error) for name, error in zip(CHANNELS, errors)}
+        """Gain of each channel of X, Y, N, K in this campaign, 1 where there is no bias."""
+        errors = self.stream("gain shared by all runs").standard_normal(len(FORCES))
+        return {name: 1.0 + self.gain_bias * float(error) for name, error in zip(FORCES, errors)}
 
     def readings(
-        self, forces: Mapping[str, np.ndarray], reference: Mapping[str, float], run: str
+        self,
+        forces: Mapping[str, np.ndarray],
+        reference: Mapping[str, float],
+        run: str,
+        zero: Mapping[str, float] | None = None,
     ) -> dict[str, np.ndarray]:
         """What the balance writes down in one run.
 
         Parameters
         ----------
         forces : mapping of str to ndarray, shape (n,)
-            True channels among :data:`CHANNELS`, in N and Nm.
+            True channels among X, Y, N and K, in N and Nm.
         reference : mapping of str to float
             Reference force of each channel in N or Nm, which the sizes are shares of.
         run : str
             Name of the run; it selects the random numbers.
+        zero : mapping of str to float, optional
+            Reading at rest in N or Nm, which all runs share; 0 when not named.
 
         Returns
         -------
         dict of str to ndarray, shape (n,)
         """
+        levels = zero or {}
         if self.silent:
-            return {name: np.asarray(values, dtype=float) for name, values in forces.items()}
+            return {name: values + levels.get(name, 0.0) for name, values in forces.items()}
         stream = self.stream(f"run {run}")
         n = len(next(iter(forces.values())))
-        zero_error = stream.standard_normal((2, len(CHANNELS)))
+        zero_error = stream.standard_normal((2, len(FORCES)))
         ramp = np.linspace(0.0, 1.0, n)
         gains = self.gains()
         result = {}
-        for name in (channel for channel in CHANNELS if channel in forces):
-            row = CHANNELS.index(name)
+        for name in (channel for channel in FORCES if channel in forces):
+            row = FORCES.index(name)
             scatter = np.full(n, self.offset * zero_error[0, row])
             if self.drift:
                 scatter += self.drift * zero_error[1, row] * ramp
@@ -123,7 +127,7 @@ class Noise:
                 scatter += self.white * stream.standard_normal(n)
             if self.ar1:
                 scatter += self.ar1 * autoregressive(stream.standard_normal(n), self.rho)
-            reading = gains[name] * np.asarray(forces[name], dtype=float) + reference[name] * scatter
+            reading = gains[name] * forces[name] + reference[name] * scatter + levels.get(name, 0.0)
             result[name] = quantised(reading, self.quantum * reference[name])
         return result
 

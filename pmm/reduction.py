@@ -237,7 +237,7 @@ def _window(record: Record, run: Run, settings: Reduction) -> tuple[slice, str]:
         stop=settings.stop,
         speed=record["speed"] if "speed" in record else None,
     )
-    return choice.rows, choice.note
+    return choice.slice, choice.note
 
 
 def _mean_step(record: Record) -> float:
