@@ -127,9 +127,11 @@ class DerivativeSet:
     def conf_int(self, level: float = 0.95) -> pd.DataFrame:
         """Two-sided confidence interval of each value (Student t with :attr:`dof`)."""
         import pandas as pd
-        from scipy import stats
+        from scipy.special import ndtri, stdtrit
 
-        half = stats.t.ppf(0.5 + level / 2, self.dof) * self._standard_errors()
+        tail = 0.5 + level / 2
+        quantile = stdtrit(self.dof, tail) if np.isfinite(self.dof) else ndtri(tail)
+        half = quantile * self._standard_errors()
         return pd.DataFrame({"lower": self.values - half, "upper": self.values + half}, index=list(self.names))
 
     def _standard_errors(self) -> np.ndarray:

@@ -10,10 +10,6 @@ import numpy as np
 from ..core.terms import Term
 from .reduced_run import ReducedRun
 
-_NOISY = 4.0
-"""A run whose noise density exceeds the pooled one by this factor keeps its own."""
-
-
 @dataclass(frozen=True, eq=False)
 class ForceRows:
     """Regression rows of one component.
@@ -26,7 +22,7 @@ class ForceRows:
     response : ndarray, shape (n,)
         Scaled force (LT).
     sd : ndarray, shape (n,)
-        Standard error of each row from the noise within its run (pooled over runs of a kind); NaN throughout
+        Standard error of each row from the noise within its run (drawn towards runs of its kind); NaN throughout
         when some run gives none, and then rows count equally.
     run : ndarray of int, shape (n,)
         Index of each row's run.
@@ -87,6 +83,7 @@ def force_rows(runs: Sequence[ReducedRun], terms: Sequence[Term], component: str
                 run.scaled_sd[component],
                 np.full(size, index),
                 np.arange(size),
+                run.noise_dof.get(component, np.full(size, np.inf)),
             )
         )
     if not blocks:
@@ -94,18 +91,20 @@ def force_rows(runs: Sequence[ReducedRun], terms: Sequence[Term], component: str
         return ForceRows(
             component, own, np.zeros((0, len(own))), empty, empty, empty.astype(int), empty.astype(int)
         )
-    design, response, sd, run_index, harmonic = (np.concatenate(part) for part in zip(*blocks, strict=True))
+    design, response, sd, run_index, harmonic, dof = (np.concatenate(part) for part in zip(*blocks, strict=True))
     size = np.abs(design).max(axis=0, initial=0.0)
     active = (np.abs(design) > 1e-9 * np.where(size > 0, size, 1.0)).any(axis=1)
     rows = ForceRows(component, own, design, response, sd, run_index, harmonic).only(active)
-    return ForceRows(component, own, rows.design, rows.response, _pooled_sd(rows, runs), rows.run, rows.harmonic)
+    sd = _moderated_sd(rows, runs, dof[active])
+    return ForceRows(component, own, rows.design, rows.response, sd, rows.run, rows.harmonic)
 
 
-def _pooled_sd(rows: ForceRows, runs: Sequence[ReducedRun]) -> np.ndarray:
-    """Standard errors with the noise density pooled over runs of the same kind and harmonic.
+def _moderated_sd(rows: ForceRows, runs: Sequence[ReducedRun], dof: np.ndarray) -> np.ndarray:
+    """Standard errors from noise densities that are drawn towards those of the runs of the same kind.
 
-    One run's own estimate of its noise is itself noisy; weights made of it would favour runs whose noise was
-    underestimated by chance.
+    One run's own estimate of its noise is itself noisy, and weights made of it would favour runs whose noise was
+    underestimated by chance; yet runs may truly differ. The empirical Bayes estimate of Smyth (2004) weighs the
+    two by what the spread of the estimates shows.
     """
     sd = rows.sd
     if not np.isfinite(sd).all():
@@ -117,14 +116,49 @@ def _pooled_sd(rows: ForceRows, runs: Sequence[ReducedRun]) -> np.ndarray:
     density = sd**2 * length
     floor = max((1e-10 * np.abs(rows.response).max(initial=0.0)) ** 2, np.finfo(float).tiny)
     density = np.maximum(density, floor * length)
-    pooled = density.copy()
     for key in {(bool(k), int(b)) for k, b in zip(kind, band, strict=True)}:
-        rows_of = (kind == key[0]) & (band == key[1])
-        if rows_of.sum() >= 3:
-            centre = np.exp(np.log(density[rows_of]).mean())
-            own = density[rows_of]
-            pooled[rows_of] = np.where(own > _NOISY * centre, own, centre)
-    return np.sqrt(pooled / length)
+        same = (kind == key[0]) & (band == key[1])
+        density[same] = moderated_variances(density[same], dof[same])
+    return np.sqrt(density / length)
+
+
+def moderated_variances(variance: np.ndarray, dof: np.ndarray) -> np.ndarray:
+    """Variances of similar samples, each drawn towards their common level.
+
+    Smyth (2004), Statistical Applications in Genetics and Molecular Biology 3(1), section 6.2.
+
+    Parameters
+    ----------
+    variance : ndarray, shape (n,)
+        Positive.
+    dof : ndarray, shape (n,)
+        Degrees of freedom of each.
+    """
+    from scipy.special import digamma, polygamma
+
+    if len(variance) < 3 or not np.isfinite(dof).all():
+        return variance
+    half = np.maximum(dof, 1.0) / 2.0
+    level = np.log(variance) - digamma(half) + np.log(half)
+    spread = float(np.var(level, ddof=1) - polygamma(1, half).mean())
+    if spread <= 0:
+        return np.full(len(variance), np.exp(level.mean()))
+    prior = 2.0 * _inverse_trigamma(spread)
+    common = float(np.exp(level.mean() + digamma(prior / 2) - np.log(prior / 2)))
+    return (prior * common + 2 * half * variance) / (prior + 2 * half)
+
+
+def _inverse_trigamma(value: float) -> float:
+    from scipy.special import polygamma
+
+    x = 0.5 + 1.0 / value
+    for _ in range(50):
+        first = float(polygamma(1, x))
+        step = first * (1.0 - first / value) / float(polygamma(2, x))
+        x += step
+        if -step / x < 1e-8:
+            break
+    return x
 
 
 def between_run_scatter(rows: ForceRows) -> float:

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 
 import numpy as np
 
 from ..core.errors import CampaignError
 from .reduced_run import FORCES
+
 
 @dataclass(frozen=True)
 class Noise:
@@ -149,6 +150,10 @@ class Noise:
         return self.white**2 + self.quantum**2 / 12.0 + self.ar1**2 * coloured
 
 
+SILENT = Noise()
+"""No noise at all."""
+
+
 def autoregressive(white: np.ndarray, rho: float) -> np.ndarray:
     """Stationary first-order autoregression of unit variance.
 
@@ -178,12 +183,12 @@ def quantised(values: np.ndarray, step: float) -> np.ndarray:
     return values if step <= 0 else step * np.round(values / step)
 
 
-def reference_forces(runs: list[Mapping[str, np.ndarray]]) -> dict[str, float]:
+def reference_forces(runs: Iterable[Mapping[str, np.ndarray]]) -> dict[str, float]:
     """Largest magnitude of each channel in a campaign, which sizes of noise are shares of.
 
     Parameters
     ----------
-    runs : list of mapping of str to ndarray
+    runs : iterable of mapping of str to ndarray
         True forces of every run, in N and Nm.
 
     Returns

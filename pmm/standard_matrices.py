@@ -168,7 +168,9 @@ def _dtc(draught: float) -> list[Run]:
             sway_amplitude=amplitude * length,
         )
 
-    pure = [yaw(f"yaw r' {rate:g}", amplitude) for rate, amplitude in ((0.25, 0.040), (0.30, 0.048), (0.35, 0.056))]
+    pure = [
+        yaw(f"yaw r' {rate:g}", amplitude) for rate, amplitude in ((0.25, 0.040), (0.30, 0.048), (0.35, 0.056))
+    ]
     coupled = [yaw(f"yaw r' 0.2 drift {angle:+g} deg", 0.032, angle) for angle in (0, 2, 4, 6, 8, 12)]
     return [*static_drift((12, 9, 6, 3, 0), speed), *pure, *coupled]
 
@@ -185,7 +187,9 @@ def _pcc_bank(draught: float) -> list[Run]:
     places = [(angle, eta) for eta in (0.09, 0.18, 0.27) for angle in range(-10, 11, 5)]
     places += [(0, 0.31), (0, 0.36)]
     return [
-        replace(static_drift([angle], 0.325)[0], name=f"bank {eta:g} L drift {angle:+d} deg", bank_position=2.0 * eta)
+        replace(
+            static_drift([angle], 0.325)[0], name=f"bank {eta:g} L drift {angle:+d} deg", bank_position=2.0 * eta
+        )
         for angle, eta in places
     ]
 
@@ -259,7 +263,8 @@ STANDARD_MATRICES: dict[str, StandardMatrix] = {
         _dtmb5512,
     ),
     "dtc-cfd": StandardMatrix(
-        "virtual PMM of the Duisburg Test Case 1:100 (MASHCON 2019, Table 2): static drift, pure yaw, yaw with drift",
+        "virtual captive tests of the Duisburg Test Case 1:100 (MASHCON 2019, Table 2): static drift, pure yaw, "
+        "yaw with drift",
         3.55,
         0.3086,
         _dtc,
@@ -277,7 +282,10 @@ STANDARD_MATRICES: dict[str, StandardMatrix] = {
         _pcc_bank,
     ),
     "inland": StandardMatrix(
-        "virtual captive matrix for inland ships (MASHCON 2019, Table 3, series 1, 3, 4 and 5)", 110.0, 3.5, _inland
+        "virtual captive matrix for inland ships (MASHCON 2019, Table 3, series 1, 3, 4 and 5)",
+        110.0,
+        3.5,
+        _inland,
     ),
     "kcs-depths": StandardMatrix(
         "KCS 1:75.5 in four depths (MASHCON 2019): pure sway, pure yaw, yaw with 3 deg of drift; too few runs for "
