@@ -1,1 +1,1 @@
-"""cli"""
+"""The ``towtank`` command."""

@@ -1,0 +1,5 @@
+"""``python -m towtank``."""
+
+from .cli.main import main
+
+main()

@@ -1,0 +1,96 @@
+"""The ``towtank`` command: one application, errors in one line, exit status 2 for what the user can mend."""
+
+from __future__ import annotations
+
+import sys
+from typing import Annotated
+
+import click
+import typer
+
+from ..core.errors import TowtankError
+from . import campaign_commands, planning_commands, reproduce_command, set_commands
+from .demo_command import demo
+
+app = typer.Typer(
+    name="towtank",
+    help="Captive tests to hydrodynamic derivatives, with uncertainty and conventions attached to every number.\n\n"
+    "Example: towtank run campaign.toml --out results",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _print_version(value: bool) -> None:
+    if value:
+        from .. import __version__
+
+        typer.echo(f"towtank {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    debug: Annotated[bool, typer.Option("--debug", help="Show the traceback of an error.")] = False,
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    pass
+
+
+app.command("demo")(demo)
+campaign_commands.register(app)
+set_commands.register(app)
+planning_commands.register(app)
+reproduce_command.register(app)
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Entry point of the command line.
+
+    Exit status: 0 done, 1 a defect of the program, 2 something the user can mend, 130 interrupted.
+    """
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    debug = "--debug" in words
+    # --debug may stand anywhere on the line
+    words = [word for word in words if word != "--debug"]
+    try:
+        status = app(args=words, prog_name="towtank", standalone_mode=False)
+        sys.exit(status if isinstance(status, int) else 0)
+    except TowtankError as error:
+        if debug:
+            raise
+        _fail(str(error), 2)
+    except click.exceptions.NoArgsIsHelpError as error:
+        typer.echo(error.format_message())
+        sys.exit(2)
+    except click.UsageError as error:
+        hint = f" (see: {error.ctx.command_path} --help)" if error.ctx is not None else ""
+        _fail(error.format_message() + hint, 2)
+    except click.ClickException as error:
+        _fail(error.format_message(), 2)
+    except (KeyboardInterrupt, click.exceptions.Abort):
+        _fail("interrupted; earlier results are untouched", 130)
+    except BrokenPipeError:
+        sys.stderr.close()
+        sys.exit(0)
+    except PermissionError as error:
+        if debug:
+            raise
+        _fail(f"{error.filename}: permission denied -> choose a folder that you may write to", 2)
+    except Exception as error:
+        if debug:
+            raise
+        _fail(f"defect in towtank: {type(error).__name__}: {error} -> run again with --debug and report it", 1)
+
+
+def _fail(message: str, status: int) -> None:
+    print(f"towtank: {' '.join(message.split())}", file=sys.stderr)
+    sys.exit(status)
+
+
+if __name__ == "__main__":
+    main()
