@@ -89,6 +89,13 @@ def _entry(line: str, file: str, number: int) -> tuple[str, str | float]:
                 place=f"line {number}",
             )
         key, value = spaced[1], spaced[2].strip()
+    if not key[0].isalpha():
+        raise ReadError(
+            f"'{key}' is not the name of a particular",
+            cure="this is no condition file; name the right one",
+            file=file,
+            place=f"line {number}",
+        )
     key, unit = split_name(key)
     return key, _si_value(value, unit)
 

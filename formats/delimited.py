@@ -107,39 +107,39 @@ def _parse(data: bytes, dialect: Dialect, names: Sequence[str], file: str) -> _B
     import pyarrow as pa
 
     start = len(dialect.head)
-    body = memoryview(data)[start : _end_of_rows(data, start)]
-    quoted = data.find(b'"', start) >= 0
+    body = data[start : _end_of_rows(data, start)]
+    if not body.isascii():
+        # pyarrow hands refused lines over as UTF-8.
+        body = body.decode(dialect.encoding, errors="replace").encode()
     first_line = dialect.first_data_row + 1
     faults = LineFaults()
     lines = _count_lines(body)
+    cells = body
     if dialect.delimiter == " ":
-        cells = _squeeze(bytes(body))
+        cells = _squeeze(body)
     elif dialect.delimiter == FIXED:
-        cells, is_cut = separate(bytes(body), dialect.edges, file=file, first_line=first_line)
+        cells, is_cut = separate(body, dialect.edges, file=file, first_line=first_line)
         faults.cut = first_line + lines - 1 if is_cut else 0
-    else:
-        cells = body
     refused: list[str] = []
     try:
-        columns = _parse_fast(cells, dialect, names, quoted, refused)
+        columns = _parse_fast(cells, dialect, names, refused)
     except pa.ArrowInvalid:
-        return _Body(*parse_patiently(bytes(body), dialect, names, file))
+        return _Body(*parse_patiently(body, dialect, names, file))
     if refused:
-        last = bytes(cells[_start_of_last_line(cells) :])
-        if len(refused) > 1 or refused[0].encode() != last or dialect.comment:
-            return _Body(*parse_patiently(bytes(body), dialect, names, file))
+        last = cells.splitlines()[-1]
+        is_comment = bool(dialect.comment) and refused[0].lstrip().startswith(dialect.comment)
+        if len(refused) > 1 or refused[0].encode() != last or is_comment:
+            return _Body(*parse_patiently(body, dialect, names, file))
         faults.cut = first_line + lines - 1
     rows = len(columns[0]) if columns else 0
     if not rows or _has_empty_row(columns):
-        return _Body(*parse_patiently(bytes(body), dialect, names, file))
+        return _Body(*parse_patiently(body, dialect, names, file))
     if rows + bool(faults.cut) < lines:
-        faults.blank = _blank_lines(bytes(body), first_line)
+        faults.blank = _blank_lines(body, first_line)
     return _Body(columns, faults)
 
 
-def _parse_fast(
-    cells: bytes | memoryview, dialect: Dialect, names: Sequence[str], quoted: bool, refused: list[str]
-) -> list[np.ndarray]:
+def _parse_fast(cells: bytes, dialect: Dialect, names: Sequence[str], refused: list[str]) -> list[np.ndarray]:
     """Columns of a separated table; lines of a wrong width are added to `refused`."""
     import pyarrow as pa
     from pyarrow import csv
@@ -166,7 +166,7 @@ def _parse_fast(
         ),
         # Without quotes to look for, the parser is a tenth faster.
         parse_options=csv.ParseOptions(
-            delimiter=delimiter, quote_char='"' if quoted else False, invalid_row_handler=refuse
+            delimiter=delimiter, quote_char='"' if b'"' in cells else False, invalid_row_handler=refuse
         ),
         convert_options=csv.ConvertOptions(**convert),
     )
@@ -182,14 +182,9 @@ def _end_of_rows(data: bytes, start: int) -> int:
     return stop
 
 
-def _count_lines(body: memoryview) -> int:
+def _count_lines(body: bytes) -> int:
     characters = np.frombuffer(body, dtype=np.uint8)
     return int(np.count_nonzero(characters == _NEWLINE) or np.count_nonzero(characters == _RETURN)) + 1
-
-
-def _start_of_last_line(cells: bytes | memoryview) -> int:
-    whole = bytes(cells).rstrip(b"\r\n")
-    return max(whole.rfind(b"\n"), whole.rfind(b"\r")) + 1
 
 
 def _has_empty_row(columns: Sequence[np.ndarray]) -> bool:

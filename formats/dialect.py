@@ -159,31 +159,25 @@ def sniff(data: bytes, path: str | Path = "") -> Dialect:
     top = _complete_lines(data)
     encoding = encoding_of(b"".join(top))
     lines = [line.decode(encoding, errors="replace").rstrip("\r\n") for line in top]
-    comment = next((mark for line in lines for mark in COMMENT_MARKS if line.lstrip().startswith(mark)), "")
+    marked_line = next((line.lstrip() for line in lines if line.lstrip().startswith(COMMENT_MARKS)), "")
+    comment = next((mark for mark in COMMENT_MARKS if marked_line.startswith(mark)), "")
     body = _body_sample(lines, data, comment, encoding)
     delimiter, decimal, edges = _form(body, lines)
     if comment == delimiter:
         comment = ""
-    split = Dialect(delimiter, decimal, edges=edges).split
-    rows = [split(line) for line in body]
+    form = Dialect(delimiter, decimal, comment=comment, edges=edges)
+    rows = [form.split(line) for line in body]
     width = _common_width(rows)
     bulk = [row for row in rows if len(row) == width]
-    marked, heads, data_rows = [], [], 0
-    for line in lines:
-        is_comment = bool(comment) and line.lstrip().startswith(comment)
-        row = split(line)
-        is_data = not is_comment and len(row) == width and all(is_number(c, decimal) for c in row if c)
-        marked.append(is_comment)
-        heads.append(row if is_data else _split_heading(_unmarked(line) if is_comment else line, delimiter, width))
-        data_rows = data_rows + 1 if is_data and any(row) else 0
-        if data_rows > _SURELY_DATA:
-            break
+    marked, heads = _top_cells(lines, form, width)
     last_named = any(len(row) == width and row[-1] for row in heads)
     trailing = width > 1 and not last_named and not any(row[-1] for row in bulk)
     if trailing:
         width -= 1
         heads = [row[:-1] if len(row) == width + 1 else row for row in heads]
     heads = [row if len(row) == width and any(row) else _strip_right(row) for row in heads]
+    # LabVIEW names a last column for comments, which the rows leave out.
+    heads = [row[:-1] if len(row) == width + 1 and row[-1] == "Comment" else row for row in heads]
     layout = lay_out(
         heads, marked, [row[:width] for row in bulk], width, lambda cell: is_number(cell, decimal), file=file
     )
@@ -207,6 +201,25 @@ def sniff(data: bytes, path: str | Path = "") -> Dialect:
         metadata=_entries(above[: layout.first_data - layout.headings], delimiter),
         findings=layout.findings,
     )
+
+
+def _top_cells(lines: Sequence[str], form: Dialect, width: int) -> tuple[list[bool], list[list[str]]]:
+    """Which of the first lines are comments, and the cells of each, down to some rows that are surely data."""
+    marked: list[bool] = []
+    cells: list[list[str]] = []
+    data_rows = 0
+    for line in lines:
+        is_comment = bool(form.comment) and line.lstrip().startswith(form.comment)
+        row = form.split(line)
+        is_data = not is_comment and len(row) == width and all(is_number(c, form.decimal) for c in row if c)
+        if not is_data:
+            row = _split_heading(_unmarked(line) if is_comment else line, form.delimiter, width)
+        marked.append(is_comment)
+        cells.append(row)
+        data_rows = data_rows + 1 if is_data and any(row) else 0
+        if data_rows > _SURELY_DATA:
+            break
+    return marked, cells
 
 
 def _unmarked(line: str) -> str:
@@ -260,6 +273,8 @@ def _form(body: Sequence[str], lines: Sequence[str]) -> tuple[str, str, Edges]:
     best: tuple[float, bool, int] | None = None
     delimiter, decimal, sense = " ", ".", 0.0
     for rank, candidate in enumerate(DELIMITERS):
+        if candidate != " " and not any(candidate in line for line in body):
+            continue
         rows = [_split(line, candidate) for line in body]
         width = _common_width(rows)
         named = any(_names_columns(line, candidate, width) for line in lines[:_SEARCHED_FOR_NAMES])

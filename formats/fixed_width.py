@@ -37,11 +37,11 @@ def column_edges(lines: Sequence[str], decimal: str) -> Edges:
     if not width:
         return ()
     page = np.array([list(line.ljust(width)) for line in lines])
-    inked = (page != " ").any(axis=0)
+    inked = np.any(page != " ", axis=0)
     stops = {int(stop) for stop in np.flatnonzero(inked[:-1] & ~inked[1:]) + 1} | {width}
     # A blank or a sign in any line shows that the digits of the cell before have ended.
-    digits = np.isin(page, list("0123456789")).all(axis=0)
-    signs = (page == decimal).all(axis=0)
+    digits = np.all(np.isin(page, list("0123456789")), axis=0)
+    signs = np.all(page == decimal, axis=0)
     for point in np.flatnonzero(signs):
         stop = int(point) + 1
         while stop < width and digits[stop]:

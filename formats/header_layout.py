@@ -145,7 +145,7 @@ def _first_data_row(
         if kind == "data" and (named or not is_numbering):
             return index
         # Under the names, a mixed or ragged row is data with a fault; without names it is the row of names itself.
-        if kind in {"mixed", "ragged"} and named:
+        if kind in {"mixed", "ragged"} and named and not is_numbering:
             return index
         named = named or kind in {"heading", "comment of names"} or (kind == "mixed" and not is_numbering)
     raise ReadError(
@@ -183,9 +183,13 @@ def _is_heading(row: Cells) -> bool:
     return any(cell and not cell.replace(".", "", 1).isdigit() for cell in row)
 
 
-def _best_names(rows: Sequence[Cells], full: Sequence[int]) -> int:
-    unique = [index for index in full if all(rows[index]) and len(set(rows[index])) == len(rows[index])]
-    return unique[0] if unique else full[0]
+def _best_names(rows: Sequence[Cells], candidates: Sequence[int]) -> int:
+    """First row of unlike words in the block of heading rows that is nearest to the data."""
+    block = [candidates[-1]]
+    while block[0] - 1 in candidates:
+        block.insert(0, block[0] - 1)
+    unlike = [index for index in block if all(rows[index]) and len(set(rows[index])) == len(rows[index])]
+    return unlike[0] if unlike else block[0]
 
 
 def _unit_share(row: Cells) -> float:

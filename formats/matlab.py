@@ -113,7 +113,7 @@ def _v5_tree(source: SourceFile) -> tuple[dict[str, Any], bool]:
     from scipy.io import loadmat
 
     try:
-        tree = loadmat(io.BytesIO(source.data), simplify_cells=True)
+        tree = loadmat(io.BytesIO(source.data), simplify_cells=True)  # type: ignore[arg-type]
     # scipy raises errors of many kinds for a file that ends too early.
     except Exception as error:
         raise ReadError(
@@ -154,4 +154,3 @@ def _v73_value(node: Any, file: Any) -> Any:
     if values.dtype == object:
         return [_v73_value(file[reference], file) for reference in np.ravel(values)]
     return np.asarray(values).T
-

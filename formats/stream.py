@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import closing
 from typing import TypeVar
 
 from ..core.errors import ReadError, TowtankError
@@ -50,20 +51,21 @@ def iter_records(
     """
     items = list(paths)
     results = _in_turn(items, read_one) if workers <= 1 else _ahead(items, read_one, workers)
-    for done, result in enumerate(results, start=1):
-        yield result
-        # Not kept here while the next one is waited for.
-        del result
-        if progress is not None:
-            progress(done, len(items))
+    with closing(results):
+        for done, result in enumerate(results, start=1):
+            if progress is not None:
+                progress(done, len(items))
+            yield result
+            # Not kept here while the next one is waited for.
+            del result
 
 
-def _in_turn(items: list[Item], read_one: Callable[[Item], Result]) -> Iterator[Result]:
+def _in_turn(items: list[Item], read_one: Callable[[Item], Result]) -> Generator[Result, None, None]:
     for item in items:
         yield _read(read_one, item)
 
 
-def _ahead(items: list[Item], read_one: Callable[[Item], Result], workers: int) -> Iterator[Result]:
+def _ahead(items: list[Item], read_one: Callable[[Item], Result], workers: int) -> Generator[Result, None, None]:
     pool = ThreadPoolExecutor(workers, thread_name_prefix="towtank-read")
     waiting: deque[Future[Result]] = deque()
     try:

@@ -78,7 +78,7 @@ def parse_patiently(
     Parameters
     ----------
     body : bytes
-        Everything from the first data line on.
+        Everything from the first data line on, in UTF-8.
     dialect : Dialect
         How the table is written.
     names : sequence of str
@@ -98,7 +98,7 @@ def parse_patiently(
     ReadError
         For a line other than the last with too few or too many values, for text in a cell, and if no row is left.
     """
-    lines = body.decode(dialect.encoding, errors="replace").replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    lines = body.decode(errors="replace").replace("\r\n", "\n").replace("\r", "\n").split("\n")
     while lines and not lines[-1].strip():
         lines.pop()
     places = [dialect.names.index(name) for name in names]

@@ -74,8 +74,8 @@ def write_table(
     path : str or Path
         The file; an existing one is replaced.
     columns : mapping of str to array_like, shape (n,)
-        Columns by their names. Numbers are written with as many digits as they need; NaN as an empty cell. Round
-        them beforehand for a shorter file.
+        Columns by their names. Numbers are written with as many digits as they need, missing ones as ``nan``.
+        Round them beforehand for a shorter file.
     units : mapping of str to str, optional
         Printed in a second row; a column without a unit gets ``-``. Without `units` there is no such row.
     delimiter : str
@@ -94,7 +94,7 @@ def write_table(
     TowtankError
         If the columns differ in length or there are none, or if separator and decimal sign are the same.
     """
-    if len(delimiter) != 1 or delimiter == decimal or delimiter in "\r\n\"" or decimal not in (".", ","):
+    if len(delimiter) != 1 or delimiter == decimal or delimiter in '\r\n"' or decimal not in (".", ","):
         raise TowtankError(
             f"'{delimiter}' as separator and '{decimal}' as decimal sign cannot be told apart or read again",
             cure="separate with a tab or semicolon, and write decimals with a point or a comma",
@@ -102,9 +102,7 @@ def write_table(
         )
     arrays = {name: np.ascontiguousarray(values, dtype=np.float64).ravel() for name, values in columns.items()}
     if len({len(values) for values in arrays.values()}) != 1:
-        raise TowtankError(
-            "a table needs columns of one length", cure="cut or resample the channels", file=path
-        )
+        raise TowtankError("a table needs columns of one length", cure="cut or resample the channels", file=path)
     heading = io.StringIO()
     for line in header:
         heading.write(f"{comment}{line}\n")
@@ -121,7 +119,7 @@ def _rows(arrays: Mapping[str, np.ndarray], delimiter: str, decimal: str) -> byt
     import pyarrow as pa
     from pyarrow import csv as arrow_csv
 
-    table = pa.table({name: pa.array(values, from_pandas=True) for name, values in arrays.items()})
+    table = pa.table({name: pa.array(values) for name, values in arrays.items()})
     sink = pa.BufferOutputStream()
     options = arrow_csv.WriteOptions(include_header=False, delimiter=delimiter, quoting_style="none")
     arrow_csv.write_csv(table, sink, options)

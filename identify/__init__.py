@@ -1,1 +1,88 @@
-"""identify"""
+"""Estimators on plain arrays: steady means, harmonics, regressions and their uncertainty. They know no ship.
+
+============================  =========================================================================
+``autocorrelation``           means and noise densities of autocorrelated records
+``autoregression``            the autoregressive noise model behind them
+``steady_window``             transient, averaging window, stationarity
+``harmonics``                 mean and harmonics over whole or broken cycles, frequency, phases
+``regression``                least squares with model, HAC, clustered or HC3 covariance; diagnostics
+``robust``                    Huber
+``ridge``                     ridge and truncated singular values, chosen by left-out rows or runs
+``constrained``               signs, bounds, equalities, prior
+``bootstrap``                 resampling of whole runs
+``shared_bias``               errors that all runs share
+``model_selection``           AICc, left-out runs, fitting range
+``design_optimality``         expected errors of a programme, best next run
+``sklearn_face``              all of these regressions as a scikit-learn estimator
+============================  =========================================================================
+
+Names are loaded when they are first used, so that a program pays only for what it needs.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+_HOMES = {
+    "autocorrelation": (
+        "MeanEstimate",
+        "effective_size",
+        "integrated_time",
+        "long_run_variance",
+        "long_run_variances",
+        "mean_with_error",
+    ),
+    "autoregression": ("AutoregressiveNoise", "fit_autoregression"),
+    "bootstrap": ("BootstrapResult", "block_bootstrap"),
+    "coefficient_table": ("CoefficientTable",),
+    "constrained": ("ConstrainedFit", "fit_constrained"),
+    "design_optimality": (
+        "CandidateRanking",
+        "augment_greedily",
+        "expected_covariance",
+        "expected_standard_errors",
+        "rank_candidates",
+        "repeats_for_target",
+        "run_information",
+    ),
+    "harmonics": (
+        "FrequencyEstimate",
+        "HarmonicFit",
+        "HarmonicProjector",
+        "PhaseSplit",
+        "find_frequency",
+        "fit_harmonics",
+        "harmonic_basis",
+        "in_out_of_phase",
+        "whole_cycle_window",
+    ),
+    "model_selection": ("LeftOutScore", "compare_models", "left_out_runs", "range_sensitivity"),
+    "regression": ("LinearFit", "NormalEquations", "StackedFit", "fit_linear", "fit_stacked"),
+    "ridge": ("RidgeFit", "fit_ridge", "fit_truncated_svd"),
+    "robust": ("RobustFit", "fit_huber"),
+    "shared_bias": (
+        "BiasSample",
+        "bias_contributions",
+        "estimator_matrix",
+        "monte_carlo_bias",
+        "propagate_bias",
+    ),
+    "sklearn_face": ("TermRegressor",),
+    "steady_window": ("Stationarity", "WindowChoice", "is_stationary", "stationarity", "steady_window"),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = sorted(_HOME_OF)
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME_OF:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f".{_HOME_OF[name]}", __name__), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -83,8 +83,9 @@ class AutoregressiveNoise:
             for lag in range(order):
                 ahead[:, : order - lag] += a[lag] * gradient[:, lag:]
                 back[:, : order - lag] += a[order - lag] * gradient[:, lag:]
-            spread = 2.0 + (ahead**2).sum(axis=1) - (back**2).sum(axis=1)
-            result[:, channel] = 2.0 * self.blocks / spread
+            spread = (ahead**2).sum(axis=1) - (back**2).sum(axis=1)
+            # Never negative but by rounding, near a unit root.
+            result[:, channel] = 2.0 * self.blocks / (2.0 + np.maximum(spread, 0.0))
         # Fewer than two degrees of freedom give an interval without a finite variance: no more can be said.
         return np.clip(result, 2.0, max(self.blocks - 1.0, 2.0))
 

@@ -102,7 +102,8 @@ class NormalEquations:
         self.p, self.keep_groups, self.n = p, keep_groups, 0
         self.triangle = np.zeros((p + 1, p + 1))
         self._moments = np.zeros(p + 2)
-        self._lowest, self._highest = np.full(p, np.inf), np.full(p, -np.inf)
+        # Value of each column that has been constant so far, nan for the others.
+        self._constant: np.ndarray | None = None
         self._grams: dict[Hashable, np.ndarray] = {}
         self._rows: dict[Hashable, int] = {}
 
@@ -131,15 +132,14 @@ class NormalEquations:
             As :func:`.regression.fit_linear`.
         """
         x, y, w = checked_regression(design, response, self.names, weights)
-        block = np.empty((y.size, self.p + 1))
+        # Columns contiguous, as the factorisation wants them.
+        block = np.empty((y.size, self.p + 1), order="F")
         block[:, :-1], block[:, -1] = x, y
-        if w is None:
-            self._moments += np.concatenate([[y.size], block.sum(axis=0)])
-        else:
-            self._moments += np.concatenate([[w.sum()], w @ block])
+        mass = np.ones(y.size) if w is None else w
+        self._moments += np.concatenate([[mass.sum()], mass @ block])
+        if w is not None:
             block *= np.sqrt(w)[:, None]
-        self._lowest = np.minimum(self._lowest, x.min(axis=0))
-        self._highest = np.maximum(self._highest, x.max(axis=0))
+        self._note_constant_columns(x)
         triangle = _triangle(block)
         if self.keep_groups:
             label = ("run", len(self._grams)) if group is None else group
@@ -149,6 +149,14 @@ class NormalEquations:
         self.triangle = _triangle(np.vstack([self.triangle, triangle]))
         self.n += y.size
         return self
+
+    def _note_constant_columns(self, x: np.ndarray) -> None:
+        if self._constant is None:
+            self._constant = x[0].copy()
+        same = (x[0] == self._constant) & (x[-1] == self._constant)
+        for j in np.flatnonzero(same):
+            same[j] = bool((x[:, j] == self._constant[j]).all())
+        self._constant = np.where(same, self._constant, np.nan)
 
     def merge(self, other: NormalEquations) -> NormalEquations:
         """Add what another accumulator of the same terms holds, as when runs were read in parallel.
@@ -162,8 +170,10 @@ class NormalEquations:
             raise FitError("the accumulators hold different terms", cure="use one list of terms")
         self.triangle = _triangle(np.vstack([self.triangle, other.triangle]))
         self._moments += other._moments
-        self._lowest = np.minimum(self._lowest, other._lowest)
-        self._highest = np.maximum(self._highest, other._highest)
+        if self._constant is None:
+            self._constant = None if other._constant is None else other._constant.copy()
+        elif other._constant is not None:
+            self._constant = np.where(self._constant == other._constant, self._constant, np.nan)
         self.n += other.n
         for label, gram in other._grams.items():
             key = ("run", len(self._grams)) if isinstance(label, tuple) and label[:1] == ("run",) else label
@@ -223,7 +233,7 @@ class NormalEquations:
             raise FitError(f"there is no covariance '{covariance}'", cure="use model or cluster")
 
         weight, sums = float(self._moments[0]), self._moments[1:]
-        intercept = bool(np.any(self._lowest == self._highest))
+        intercept = self._constant is not None and bool(np.isfinite(self._constant).any())
         total = float(self.triangle[:, p] @ self.triangle[:, p])
         unit = np.einsum("ij,ij->i", back, back)
         vif = variance_inflation(unit, svd.scale**2, sums[:p], weight, intercept)

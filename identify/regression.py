@@ -346,7 +346,7 @@ def fit_linear(
     root = None if w is None else np.sqrt(w)
     rows = x if root is None else x * root[:, None]
     target = y if root is None else y * root
-    q, triangle = np.linalg.qr(rows)
+    q, triangle = np.linalg.qr(np.asfortranarray(rows))
     svd, left = scaled_svd(triangle, y.size, names)
     flagged = require_full_rank(svd, names, allow_singular=allow_singular)
     r = svd.rank

@@ -9,6 +9,7 @@ the r x r matrix q_g' q_g, whatever the number of samples in the run.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -189,7 +190,7 @@ def hac_covariance(
         bounds = np.array([0, n])
     else:
         bounds = np.concatenate([[0], np.flatnonzero(groups[1:] != groups[:-1]) + 1, [n]])
-    runs = [scores[a:b] for a, b in zip(bounds[:-1], bounds[1:])]
+    runs = [scores[a:b] for a, b in pairwise(bounds)]
     chosen = _andrews_lags(runs) if lags is None else int(lags)
     if chosen < 0:
         raise FitError(f"the number of lags {chosen} is negative", cure="use 0 or more")

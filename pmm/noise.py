@@ -11,6 +11,7 @@ import hashlib
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
+from functools import cached_property
 
 import numpy as np
 
@@ -81,8 +82,9 @@ class Noise:
             np.random.SeedSequence(self.seed, spawn_key=tuple(int(word) for word in words))
         )
 
+    @cached_property
     def gains(self) -> dict[str, float]:
-        """Gain of each channel of X, Y, N, K in this campaign, 1 where there is no bias."""
+        """Gain of the channels X, Y, N and K in this campaign, 1 where there is no bias."""
         errors = self.stream("gain shared by all runs").standard_normal(len(FORCES))
         return {name: 1.0 + self.gain_bias * float(error) for name, error in zip(FORCES, errors)}
 
@@ -117,8 +119,7 @@ class Noise:
         n = len(next(iter(forces.values())))
         zero_error = stream.standard_normal((2, len(FORCES)))
         ramp = np.linspace(0.0, 1.0, n)
-        gains = self.gains()
-        result = {}
+        result: dict[str, np.ndarray] = {}
         for name in (channel for channel in FORCES if channel in forces):
             row = FORCES.index(name)
             scatter = np.full(n, self.offset * zero_error[0, row])
@@ -128,7 +129,7 @@ class Noise:
                 scatter += self.white * stream.standard_normal(n)
             if self.ar1:
                 scatter += self.ar1 * autoregressive(stream.standard_normal(n), self.rho)
-            reading = gains[name] * forces[name] + reference[name] * scatter + levels.get(name, 0.0)
+            reading = self.gains[name] * forces[name] + reference[name] * scatter + levels.get(name, 0.0)
             result[name] = quantised(reading, self.quantum * reference[name])
         return result
 

@@ -1,0 +1,205 @@
+"""Audit of single channels: missing values, dead and saturated channels, spikes, runs that never settle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from ..core.findings import Finding
+from .audit_rules import finding
+from .reduced_run import FORCES
+
+_SPIKE = 12.0
+"""Steps between samples beyond this many robust standard deviations are spikes."""
+
+_BLOCKS, _PARTS = 8, 4
+_SETTLED = 0.05
+"""Change between blocks, relative to the force, that counts as settled."""
+
+
+def audit_channels(
+    channels: Mapping[str, np.ndarray], time: np.ndarray, *, harmonic: bool, lively: frozenset[str]
+) -> list[Finding]:
+    """Findings about single channels of one run.
+
+    Parameters
+    ----------
+    channels : mapping of str to ndarray, shape (n,)
+        In SI.
+    time : ndarray, shape (n,)
+        In s.
+    harmonic : bool
+        True for an oscillating run.
+    lively : frozenset of str
+        Channels that this run must move.
+
+    Returns
+    -------
+    list of Finding
+    """
+    found: list[Finding] = []
+    dead: list[str] = []
+    alive: list[str] = []
+    for name, values in channels.items():
+        if name == "time":
+            continue
+        if name not in FORCES and name not in lively:
+            if not math.isfinite(float(np.dot(values, values))):
+                found.append(_missing(name, values, time))
+            continue
+        low, high = float(values.min()), float(values.max())
+        if not math.isfinite(low + high):
+            found.append(_missing(name, values, time))
+        elif low == high:
+            dead.append(name)
+        elif name in FORCES:
+            alive.append(name)
+            found += _flat_tops(name, values, low, high)
+            found += _spikes(name, values, time, high - low)
+    found += _dead_channels(channels, dead, alive, harmonic, lively)
+    return found
+
+
+def _missing(name: str, values: np.ndarray, time: np.ndarray) -> Finding:
+    bad = np.flatnonzero(~np.isfinite(values))
+    return finding(
+        "missing-values",
+        f"{name} is missing in {bad.size} of {len(values)} samples, first at {time[bad[0]]:.6g} s"
+        if bad.size
+        else f"{name} holds values too large to be measured",
+        severity="error" if name in FORCES else "warning",
+        place=f"channel {name}",
+    )
+
+
+def _dead_channels(
+    channels: Mapping[str, np.ndarray], dead: list[str], alive: list[str], harmonic: bool, lively: frozenset[str]
+) -> list[Finding]:
+    found = []
+    # Noise-free records of steady runs are constant by right, and a noise-free X may be; a dead channel stands
+    # out because the channels beside it are noisy or oscillate.
+    noisy = any(_is_noisy(channels[name]) for name in alive)
+    for name in dead:
+        suspicious = name in lively or (noisy and name in FORCES)
+        if not suspicious:
+            continue
+        level = float(channels[name][0])
+        other = "the run oscillates it" if name in lively and harmonic else "the other forces are not constant"
+        found.append(
+            finding(
+                "constant-channel",
+                f"{name} is {level:.6g} in all samples while {other}",
+                severity="error" if name in FORCES else "warning",
+                place=f"channel {name}",
+            )
+        )
+    return found
+
+
+def _is_noisy(values: np.ndarray) -> bool:
+    steps = np.diff(values[-512:])
+    return float(np.mean(steps[1:] * steps[:-1] < 0.0)) > 0.2 if len(steps) > 2 else False
+
+
+def _flat_tops(name: str, values: np.ndarray, low: float, high: float) -> list[Finding]:
+    found = []
+    sample = values[::3]
+    for limit, side in ((high, "top"), (low, "bottom")):
+        if np.count_nonzero(sample == limit) < max(5, 0.01 * len(sample)):
+            continue
+        share = _clipped_share(values, limit, high - low)
+        if share:
+            found.append(
+                finding(
+                    "saturated-channel",
+                    f"{name} stays at exactly {limit:.6g} in {share:.1%} of the samples: a flat {side}",
+                    place=f"channel {name}",
+                )
+            )
+    return found
+
+
+def _clipped_share(values: np.ndarray, limit: float, span: float) -> float:
+    """Share of the samples at `limit` when they look clipped, else 0.
+
+    A coarse converter also repeats its extreme value, but then the value beside it is nearly as frequent; a
+    channel that settles on its extreme does so once.
+    """
+    at = values == limit
+    count = int(np.count_nonzero(at))
+    distance = np.abs(values - limit)
+    others = distance[~at]
+    next_level = float(others.min())
+    beside = int(np.count_nonzero(others <= next_level * (1 + 1e-9)))
+    if count < 5 * beside or count > 0.6 * len(values) or next_level > 0.2 * span:
+        return 0.0
+    # Episodes at the limit that are separated by a real departure from it.
+    away = np.flatnonzero(distance > 0.05 * span)
+    places = np.flatnonzero(at)
+    episodes = len(np.unique(np.searchsorted(away, places)))
+    return count / len(values) if episodes >= 2 else 0.0
+
+
+def _spikes(name: str, values: np.ndarray, time: np.ndarray, span: float) -> list[Finding]:
+    steps = values[1:] - values[:-1]
+    sample = np.abs(steps[:: max(1, len(steps) // 400)])
+    middle = len(sample) // 2
+    scale = 1.4826 * float(np.partition(sample, middle)[middle])
+    limit = max(_SPIKE * scale, 0.1 * span)
+    if max(float(steps.max()), -float(steps.min())) <= limit:
+        return []
+    # A spike goes and comes back; a step only goes. What happens at the very start is the transient's.
+    first = len(values) // 10
+    there, back = steps[first:-1], steps[first + 1 :]
+    rows = np.flatnonzero((np.abs(there) > limit) & (np.abs(there + back) < 0.5 * np.abs(there)))
+    if rows.size == 0:
+        return []
+    row = int(rows[0]) + first + 1
+    return [
+        finding(
+            "spikes",
+            f"{name} has {rows.size} spike(s), the first at {time[row]:.6g} s: {values[row]:.5g} between "
+            f"{values[row - 1]:.5g} and {values[row + 1]:.5g}",
+            place=f"channel {name}",
+        )
+    ]
+
+
+def audit_steadiness(channels: Mapping[str, np.ndarray], rows: slice) -> list[Finding]:
+    """Finding when no part of a steady run is steady.
+
+    The forces X and Y are averaged over eight blocks; the run has a steady part when three blocks in a row agree
+    within 5 % of the force or within four standard errors of their means.
+
+    Parameters
+    ----------
+    channels : mapping of str to ndarray, shape (n,)
+    rows : slice
+        Samples at constant carriage speed.
+    """
+    names = [name for name in ("X", "Y") if name in channels]
+    length = (rows.stop - rows.start) // (_BLOCKS * _PARTS)
+    if not names or length < 2:
+        return []
+    used = slice(rows.start, rows.start + length * _BLOCKS * _PARTS)
+    parts = np.stack([channels[name][used].reshape(_BLOCKS, _PARTS, length).mean(axis=2) for name in names])
+    means = parts.mean(axis=2)
+    error = np.sqrt(np.median(parts.var(axis=2, ddof=1), axis=1) / _PARTS)
+    size = float(np.median(np.sqrt((means**2).sum(axis=0))))
+    allowed = np.maximum(_SETTLED * size, 4.0 * error)[:, None]
+    spread = np.maximum(np.maximum(means[:, :-2], means[:, 1:-1]), means[:, 2:]) - np.minimum(
+        np.minimum(means[:, :-2], means[:, 1:-1]), means[:, 2:]
+    )
+    if ((spread <= allowed).all(axis=0)).any():
+        return []
+    worst = int(np.argmax((spread / allowed).max(axis=1)))
+    first, last = float(means[worst, 0]), float(means[worst, -1])
+    return [
+        finding(
+            "transient-only",
+            f"{names[worst]} keeps changing through the run, from {first:.4g} N in its first eighth to {last:.4g} N "
+            "in its last; no part of it is steady",
+        )
+    ]
