@@ -11,7 +11,7 @@ import numpy as np
 
 from .conventions import Conventions, preset
 from .conversion import conversion_map
-from .errors import TermError
+from .errors import ConventionError, TermError
 from .motion import Motion, force_units, origin_position, scaled_state
 from .provenance import Provenance
 from .ship import Ship
@@ -182,6 +182,10 @@ class DerivativeSet:
         target = target.but(**changes)
         if target == self.conventions:
             return self
+        if target.scale != self.conventions.scale:
+            raise ConventionError(
+                "model and full scale differ by more than a name", cure="use at_scale(1) for the ship"
+            )
         step = conversion_map(self.terms, self.conventions, target, self.ship, self.reference_speed)
         values = step.matrix @ self.values + step.offset
         covariance = None

@@ -35,11 +35,11 @@ def derivative_table(result: DerivativeSet) -> str:
     frame = result.to_frame()
     interval = result.covariance is not None
     rows = []
-    for row in frame.itertuples():
-        places = digits_for(row.value, row.std)
-        cells = [row.name, f"{row.value:.{places}f}"]
+    for name, value, std, lower, upper, _ in frame.itertuples(index=False, name=None):
+        places = digits_for(value, std)
+        cells = [name, f"{value:.{places}f}"]
         if interval:
-            cells += [f"{row.std:.{places}f}", f"{row.lower95:.{places}f}", f"{row.upper95:.{places}f}"]
+            cells += [f"{number:.{places}f}" for number in (std, lower, upper)]
         rows.append(cells)
     head = ["name", "value", "std", "lower 95 %", "upper 95 %"][: len(rows[0]) if rows else 2]
     widths = [max(len(cell) for cell in column) for column in zip(head, *rows)]
@@ -58,11 +58,11 @@ def derivative_table(result: DerivativeSet) -> str:
 def latex_table(result: DerivativeSet) -> str:
     """LaTeX tabular of a set, with the conventions in the caption."""
     rows = []
-    for row in result.to_frame().itertuples():
-        places = digits_for(row.value, row.std)
-        label = f"${row.name[0]}_{{{row.name[1:]}}}'$" if row.name != "R0" else "$R_0'$"
-        error = f"{row.std:.{places}f}" if math.isfinite(row.std) else "--"
-        rows.append(f"{label} & {row.value:.{places}f} & {error} \\\\")
+    for name, value, std, *_ in result.to_frame().itertuples(index=False, name=None):
+        places = digits_for(value, std)
+        label = f"${name[0]}_{{{name[1:]}}}'$" if name != "R0" else "$R_0'$"
+        error = f"{std:.{places}f}" if math.isfinite(std) else "--"
+        rows.append(f"{label} & {value:.{places}f} & {error} \\\\")
     caption = unit_line(result).replace("^2", "$^2$").replace("^3", "$^3$").replace("rho", "$\\rho$")
     caption = caption.replace("_", "\\_")
     name = result.name.replace("_", "\\_").replace("%", "\\%").replace("&", "\\&")

@@ -52,7 +52,7 @@ _ALL = (
     Variable("surge", "surge", 0, 1, False, False, "m/s", "surge velocity"),
     Variable("delta", "d", 0, 0, True, True, "rad", "rudder angle"),
     Variable("c", "c", 0, 1, False, False, "m/s", "flow velocity at the rudder"),
-    Variable("thrust", "T", 0, 0, False, False, "-", "propeller thrust coefficient"),
+    Variable("thrust", "T", 1, 2, False, False, "m/s2", "propeller thrust over the mass of the ship"),
     Variable("depth", "z", 0, 0, False, False, "-", "depth parameter T/(h-T)"),
     Variable("udot", "udot", 1, 2, False, False, "m/s2", "surge acceleration"),
     Variable("vdot", "vdot", 1, 2, True, False, "m/s2", "sway acceleration"),

@@ -176,20 +176,23 @@ def _heading_rows(
         after = [index for index in candidates if index > units_row]
         if before or after:
             return (before[-1] if before else after[0]), units_row
-    return (_best_names(rows, candidates) if candidates else None), None
+    return (_best_names(rows, is_comment, candidates) if candidates else None), None
 
 
 def _is_heading(row: Cells) -> bool:
     return any(cell and not cell.replace(".", "", 1).isdigit() for cell in row)
 
 
-def _best_names(rows: Sequence[Cells], candidates: Sequence[int]) -> int:
-    """First row of unlike words in the block of heading rows that is nearest to the data."""
-    block = [candidates[-1]]
-    while block[0] - 1 in candidates:
+def _best_names(rows: Sequence[Cells], is_comment: Sequence[bool], candidates: Sequence[int]) -> int:
+    """Row of unlike words in the block of heading rows that is nearest to the data."""
+    plain = [index for index in candidates if not is_comment[index]]
+    rest = plain or candidates
+    block = [rest[-1]]
+    while block[0] - 1 in rest:
         block.insert(0, block[0] - 1)
     unlike = [index for index in block if all(rows[index]) and len(set(rows[index])) == len(rows[index])]
-    return unlike[0] if unlike else block[0]
+    # Descriptions stand below plain names; among comments, remarks stand above the names.
+    return (unlike or block)[0 if plain else -1]
 
 
 def _unit_share(row: Cells) -> float:

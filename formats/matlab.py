@@ -28,7 +28,8 @@ def read_matlab(
     Vectors, row or column, are columns of the table; the fields of a struct are named with their path
     (``run.balance.Fx``). The columns of a matrix take their names from a cell array of texts beside it (``names``,
     ``columns``, ``channels``, ``labels``, ...) and else are called ``name_1``, ``name_2``, ... Units come from a
-    struct ``units`` with the same fields, a cell array ``units`` of the same length, or one text for all.
+    struct ``units`` with the same fields, from a cell array ``units`` in the order of the names, or from one text
+    for all.
 
     Parameters
     ----------
@@ -76,30 +77,31 @@ def parse_matlab(
 def _arrays(
     tree: Mapping[str, Any], prefix: str, metadata: dict[str, str | float], units: Any = None
 ) -> Iterator[NamedArray]:
-    """Arrays of a tree of structs, texts put into `metadata`."""
+    """Arrays of a tree of structs; texts are put into `metadata`."""
     fields = {name.lower(): name for name in tree}
     names_field = next((fields[one] for one in _NAME_FIELDS if one in fields and as_texts(tree[fields[one]])), "")
     units_field = next((fields[one] for one in _UNIT_FIELDS if one in fields and _is_units(tree[fields[one]])), "")
     names = as_texts(tree[names_field]) if names_field else []
     units = tree[units_field] if units_field else units
-    vectors = [name for name, value in tree.items() if isinstance(value, np.ndarray) and value.size > 1]
-    vectors = [name for name in vectors if not as_texts(tree[name])]
+    listed = as_texts(units)
+    by_name = (
+        units if isinstance(units, Mapping) else dict(zip(names, listed)) if len(names) == len(listed) else {}
+    )
     for name, value in tree.items():
         if name in (names_field, units_field):
             continue
-        own = units.get(name) if isinstance(units, Mapping) else None
         if isinstance(value, Mapping):
-            yield from _arrays(value, f"{prefix}{name}.", metadata, own)
+            yield from _arrays(value, f"{prefix}{name}.", metadata, by_name.get(name))
             continue
         texts = as_texts(value)
         if texts:
             metadata[prefix + name] = ", ".join(texts)
         elif isinstance(value, np.ndarray) or as_entry(value) is not None:
-            listed = as_texts(own if isinstance(units, Mapping) else units)
-            # A list of units belongs to the columns of a matrix, or to the vectors beside it in their order.
-            if len(listed) == len(vectors) > 1 and name in vectors:
-                listed = [listed[vectors.index(name)]]
-            yield NamedArray(prefix + name, np.asarray(value), names, listed)
+            array = np.asarray(value)
+            # The order of variables in a file is not the order of a list: vectors take units by name only.
+            is_matrix = array.ndim == 2 and 1 not in array.shape
+            own = listed if is_matrix or len(listed) == 1 else as_texts(by_name.get(name))
+            yield NamedArray(prefix + name, array, names if is_matrix else (), own)
 
 
 def _is_units(value: Any) -> bool:
@@ -137,11 +139,17 @@ def _v73_tree(source: SourceFile) -> tuple[dict[str, Any], bool]:
         ) from error
 
 
+def _fields(struct: Any) -> list[str]:
+    """Fields in their order in MATLAB; HDF5 lists them by the alphabet."""
+    ordered = ["".join(map(bytes.decode, letters)) for letters in struct.attrs.get("MATLAB_fields", [])]
+    return ordered if set(ordered) == set(struct) else list(struct)
+
+
 def _v73_value(node: Any, file: Any) -> Any:
     import h5py
 
     if isinstance(node, h5py.Group):
-        return {name: _v73_value(node[name], file) for name in node}
+        return {name: _v73_value(node[name], file) for name in _fields(node)}
     kind = node.attrs.get("MATLAB_class", b"")
     kind = kind.decode() if isinstance(kind, bytes) else str(kind)
     if node.attrs.get("MATLAB_empty", 0):

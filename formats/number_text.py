@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-_POINT = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?")
-_COMMA = re.compile(r"[+-]?(\d+(,\d+)?|,\d+)([eEdD][+-]?\d+)?")
+_POINT = re.compile(r"[+\-\u2212]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?")
+_COMMA = re.compile(r"[+\-\u2212]?(\d+(,\d+)?|,\d+)([eEdD][+-]?\d+)?")
 
 #: Words for a missing or infinite value, in lower case; the C runtime of Windows prints those with ``#``.
 WORDS = {

@@ -4,7 +4,9 @@
 ``autocorrelation``           means and noise densities of autocorrelated records
 ``autoregression``            the autoregressive noise model behind them
 ``steady_window``             transient, averaging window, stationarity
-``harmonics``                 mean and harmonics over whole or broken cycles, frequency, phases
+``harmonic_projection``       harmonic basis, factorised once for many channels
+``frequency``                 frequency of a motion by variable projection
+``harmonics``                 mean and harmonics over whole or broken cycles, phases against the motion
 ``regression``                least squares with model, HAC, clustered or HC3 covariance; diagnostics
 ``robust``                    Huber
 ``ridge``                     ridge and truncated singular values, chosen by left-out rows or runs
@@ -16,7 +18,8 @@
 ``sklearn_face``              all of these regressions as a scikit-learn estimator
 ============================  =========================================================================
 
-Names are loaded when they are first used, so that a program pays only for what it needs.
+Names are loaded when they are first used, so that a program pays only for what it needs. The function
+:func:`.steady_window.steady_window` shares its name with its module and is imported from there.
 """
 
 from __future__ import annotations
@@ -69,7 +72,7 @@ _HOMES = {
         "propagate_bias",
     ),
     "sklearn_face": ("TermRegressor",),
-    "steady_window": ("Stationarity", "WindowChoice", "is_stationary", "stationarity", "steady_window"),
+    "steady_window": ("Stationarity", "WindowChoice", "is_stationary", "stationarity"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

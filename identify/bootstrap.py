@@ -70,8 +70,8 @@ class BootstrapResult:
         shift = ndtri(np.clip(below / count, 0.5 / count, 1.0 - 0.5 / count))
         kept = self.jackknife[np.isfinite(self.jackknife).all(axis=1)]
         spread = kept.mean(axis=0) - kept
-        size = np.maximum((spread**2).sum(axis=0), 1e-300) ** 1.5
-        acceleration = (spread**3).sum(axis=0) / (6.0 * size)
+        size = (spread**2).sum(axis=0) ** 1.5
+        acceleration = np.divide((spread**3).sum(axis=0), 6.0 * size, out=np.zeros_like(size), where=size > 0.0)
         limits = []
         for tail in (0.5 * (1.0 - level), 0.5 * (1.0 + level)):
             z = shift + ndtri(tail)

@@ -117,8 +117,7 @@ def fit_constrained(
     problem = _Box(triangle / lengths, aim, lower * lengths, upper * lengths, matrix / lengths, values)
     solution, held = problem.solve()
     params = solution / lengths
-    at = np.flatnonzero(held)
-    params[at] = np.where(held[at] < 0, lower[at], upper[at])
+    params = np.where(held < 0, lower, np.where(held > 0, upper, params))
 
     free = problem.free_directions(held)
     inner = problem.triangle @ free
@@ -137,7 +136,11 @@ def fit_constrained(
         cov=noise_sd**2 * unit / np.outer(lengths, lengths),
         t_dof=np.full(p, t_dof),
         confidence=confidence,
-        active=tuple(f"{names[j]} {'>=' if held[j] < 0 else '<='} {params[j]:.6g}" for j in at),
+        active=tuple(
+            f"{name} {'>=' if side < 0 else '<='} {value:.6g}"
+            for name, side, value in zip(names, held, params)
+            if side
+        ),
         scale=noise_sd**2,
         resid=y - x @ params,
         free_directions=free.shape[1],

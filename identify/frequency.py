@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.errors import FitError
 from .autoregression import fit_autoregression
-from .harmonic_basis import HarmonicProjector, checked_time
+from .harmonic_projection import HarmonicProjector, checked_time
 
 # A subharmonic of the strongest line is taken for the fundamental only if it leaves this much less misfit.
 SUBHARMONIC_GAIN = 0.5

@@ -17,7 +17,7 @@ import numpy as np
 from ..core.errors import FitError
 from .autoregression import fit_autoregression
 from .frequency import FrequencyEstimate, find_frequency
-from .harmonic_basis import HarmonicProjector, checked_time, harmonic_basis
+from .harmonic_projection import HarmonicProjector, checked_time, harmonic_basis, require_positive_frequency
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -289,8 +289,7 @@ def whole_cycle_window(
         If less than one cycle is left.
     """
     time, step, _ = checked_time(t)
-    if not (omega > 0.0 and math.isfinite(omega)):
-        raise FitError(f"the frequency {omega} rad/s is not positive", cure="give omega in rad/s")
+    require_positive_frequency(omega)
     period = 2.0 * math.pi / omega
     begin = (float(time[0]) if start is None else start) + skip_cycles * period
     end = float(time[-1]) if stop is None else min(stop, float(time[-1]))

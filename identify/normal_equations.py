@@ -270,7 +270,7 @@ class NormalEquations:
 
 
 def _triangle(block: np.ndarray) -> np.ndarray:
-    r = np.linalg.qr(block, mode="r")
+    r = np.asarray(np.linalg.qr(block, mode="r"))
     if r.shape[0] == r.shape[1]:
         return r
     full = np.zeros((block.shape[1], block.shape[1]))

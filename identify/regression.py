@@ -276,8 +276,7 @@ class LinearFit(CoefficientTable):
         if self.covariance == "hc3":
             return model.fit(cov_type="HC3", use_t=True)
         if self.covariance == "cluster":
-            codes = np.unique(self.groups, return_inverse=True)[1]
-            return model.fit(cov_type="cluster", cov_kwds={"groups": codes}, use_t=True)
+            return model.fit(cov_type="cluster", cov_kwds={"groups": self.geometry.codes}, use_t=True)
         lags = int(self.covariance_note.split()[0])
         options: dict[str, Any] = {"maxlags": lags, "use_correction": True}
         if self.groups is None:

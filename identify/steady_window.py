@@ -302,16 +302,14 @@ def stationarity(
     _require_samples(time.size, "in the window")
     centred = time - time.mean()
     spread = float(centred @ centred)
-    slope = (centred @ channels) / spread
     rows = np.ascontiguousarray(channels.T)
-    means = rows.mean(axis=1)
-    residual = rows - means[:, None] - slope[:, None] * centred
-    noise = fit_autoregression(residual.T, fitted=[(0.0, 2)])
+    about = rows - rows.mean(axis=1, keepdims=True)
+    slope = np.where(np.ptp(rows, axis=1) > 0.0, about @ centred / spread, 0.0)
+    noise = fit_autoregression((about - slope[:, None] * centred).T, fitted=[(0.0, 2)])
     length = float(time[-1] - time[0])
     drift = slope * length
-    drift_se = np.sqrt(noise.density([0.0])[0] / spread) * length
-    still = drift_se <= 0.0
-    ratio = np.where(still, np.where(drift == 0.0, 0.0, np.inf), np.abs(drift) / np.where(still, 1.0, drift_se))
+    drift_se = np.where(slope != 0.0, np.sqrt(noise.density([0.0])[0] / spread) * length, 0.0)
+    ratio = np.divide(np.abs(drift), drift_se, out=np.where(slope != 0.0, np.inf, 0.0), where=drift_se > 0.0)
     p_value = 2.0 * stdtr(noise.dof([0.0])[0], -ratio)
     rms = np.sqrt(np.einsum("ij,ij->i", rows, rows) / time.size)
     harmless = 0.01 * rms if tolerance is None else np.broadcast_to(tolerance, rms.shape)

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from ..core.findings import Finding
+from ..core.terms import COMPONENTS as FORCES
 from .audit_rules import finding
-from .reduced_run import FORCES
 
 _SPIKE = 12.0
 """Steps between samples beyond this many robust standard deviations are spikes."""
@@ -49,14 +49,21 @@ def audit_channels(
             if not math.isfinite(float(np.dot(values, values))):
                 found.append(_missing(name, values, time))
             continue
-        low, high = float(values.min()), float(values.max())
+        # argmin and argmax are several times faster than min and max, and stop at NaN as well
+        lowest, highest = int(values.argmin()), int(values.argmax())
+        low, high = float(values[lowest]), float(values[highest])
         if not math.isfinite(low + high):
             found.append(_missing(name, values, time))
         elif low == high:
             dead.append(name)
         elif name in FORCES:
             alive.append(name)
-            found += _flat_tops(name, values, low, high)
+            for limit, first, again in (
+                (high, highest, values[highest + 1 :].argmax if highest + 1 < len(values) else None),
+                (low, lowest, values[lowest + 1 :].argmin if lowest + 1 < len(values) else None),
+            ):
+                if again is not None and values[first + 1 + again()] == limit:
+                    found += _flat_top(name, values, limit, high - low)
             found += _spikes(name, values, time, high - low)
     found += _dead_channels(channels, dead, alive, harmonic, lively)
     return found
@@ -78,6 +85,8 @@ def _dead_channels(
     channels: Mapping[str, np.ndarray], dead: list[str], alive: list[str], harmonic: bool, lively: frozenset[str]
 ) -> list[Finding]:
     found = []
+    if not dead:
+        return []
     # Noise-free records of steady runs are constant by right, and a noise-free X may be; a dead channel stands
     # out because the channels beside it are noisy or oscillate.
     noisy = any(_is_noisy(channels[name]) for name in alive)
@@ -103,22 +112,12 @@ def _is_noisy(values: np.ndarray) -> bool:
     return float(np.mean(steps[1:] * steps[:-1] < 0.0)) > 0.2 if len(steps) > 2 else False
 
 
-def _flat_tops(name: str, values: np.ndarray, low: float, high: float) -> list[Finding]:
-    found = []
-    sample = values[::3]
-    for limit, side in ((high, "top"), (low, "bottom")):
-        if np.count_nonzero(sample == limit) < max(5, 0.01 * len(sample)):
-            continue
-        share = _clipped_share(values, limit, high - low)
-        if share:
-            found.append(
-                finding(
-                    "saturated-channel",
-                    f"{name} stays at exactly {limit:.6g} in {share:.1%} of the samples: a flat {side}",
-                    place=f"channel {name}",
-                )
-            )
-    return found
+def _flat_top(name: str, values: np.ndarray, limit: float, span: float) -> list[Finding]:
+    share = _clipped_share(values, limit, span)
+    if not share:
+        return []
+    text = f"{name} stays at exactly {limit:.6g} in {share:.1%} of the samples"
+    return [finding("saturated-channel", text, place=f"channel {name}")]
 
 
 def _clipped_share(values: np.ndarray, limit: float, span: float) -> float:
@@ -133,7 +132,7 @@ def _clipped_share(values: np.ndarray, limit: float, span: float) -> float:
     others = distance[~at]
     next_level = float(others.min())
     beside = int(np.count_nonzero(others <= next_level * (1 + 1e-9)))
-    if count < 5 * beside or count > 0.6 * len(values) or next_level > 0.2 * span:
+    if count < max(10, 0.01 * len(values), 5 * beside) or count > 0.6 * len(values) or next_level > 0.2 * span:
         return 0.0
     # Episodes at the limit that are separated by a real departure from it.
     away = np.flatnonzero(distance > 0.05 * span)
@@ -144,11 +143,11 @@ def _clipped_share(values: np.ndarray, limit: float, span: float) -> float:
 
 def _spikes(name: str, values: np.ndarray, time: np.ndarray, span: float) -> list[Finding]:
     steps = values[1:] - values[:-1]
-    sample = np.abs(steps[:: max(1, len(steps) // 400)])
+    sample = np.abs(steps[:: max(1, len(steps) // 200)])
     middle = len(sample) // 2
-    scale = 1.4826 * float(np.partition(sample, middle)[middle])
-    limit = max(_SPIKE * scale, 0.1 * span)
-    if max(float(steps.max()), -float(steps.min())) <= limit:
+    sample.partition(middle)
+    limit = max(_SPIKE * 1.4826 * float(sample[middle]), 0.1 * span)
+    if steps[steps.argmax()] <= limit and steps[steps.argmin()] >= -limit:
         return []
     # A spike goes and comes back; a step only goes. What happens at the very start is the transient's.
     first = len(values) // 10
@@ -199,7 +198,7 @@ def audit_steadiness(channels: Mapping[str, np.ndarray], rows: slice) -> list[Fi
     return [
         finding(
             "transient-only",
-            f"{names[worst]} keeps changing through the run, from {first:.4g} N in its first eighth to {last:.4g} N "
-            "in its last; no part of it is steady",
+            f"{names[worst]} keeps changing through the run, from {first:.4g} N in its first eighth to {last:.4g} N in "
+            "its last; no part of it is steady",
         )
     ]

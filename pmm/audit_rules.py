@@ -118,7 +118,7 @@ _ALL = (
          "check conventions.drift_sign and conventions.axes, and the sign of v in the channel map"),
     Rule("rudder-sign", "error", "record", "the rudder angle has the wrong sign",
          "check conventions.rudder_sign and the sign of the rudder channel"),
-    Rule("frequency-mismatch", "error", "record", "the record oscillates at another frequency than the matrix says",
+    Rule("frequency-mismatch", "error", "record", "the motion has another frequency than the test matrix says",
          "check rad/s against Hz and the run it belongs to, or set reduction.frequency = 'found'"),
     Rule("amplitude-mismatch", "error", "record", "a motion is larger or smaller than the test matrix says",
          "correct the test matrix or the calibration of the channel"),

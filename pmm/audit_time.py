@@ -94,8 +94,8 @@ def _backwards(time: np.ndarray, back: np.ndarray) -> Finding:
         overlap = int(np.count_nonzero(time[: row + 1] >= time[row + 1]))
         return finding(
             "time-overlap",
-            f"time jumps back {back.size} time(s), first from {time[row]:.6g} to {time[row + 1]:.6g} s after sample "
-            f"{row + 1}: {overlap} sample(s) overlap the restarted run",
+            f"time jumps back {back.size} time(s), first from {time[row]:.6g} to {time[row + 1]:.6g} s after "
+            f"sample {row + 1}: {overlap} sample(s) overlap the restarted run",
             place="time",
         )
     return finding(

@@ -168,7 +168,13 @@ class Campaign:
         plan = replace(plan, tare=self._tare(plan))
         body = self._rigid_body(plan, waived)
         wet = [run for run in self.runs if not run.dry]
-        plan = replace(plan, inertia=body, terms=self._terms_wanted(), keep_series=self._shown(wet))
+        plan = replace(
+            plan,
+            inertia=body,
+            terms=self._terms_wanted(),
+            keep_series=self._shown(wet),
+            time_domain=self.file.fit.domain == "time",
+        )
         reduced: list[ReducedRun] = []
         work = partial(self._read_and_reduce, plan=plan, waived=waived)
         report = partial(progress, "reading runs") if progress else None
@@ -195,7 +201,11 @@ class Campaign:
         channels = self.file.channels
         table = read_table(
             path,
-            dialect=self._dialects.get(path.suffix), format=reader.format, sheet=reader.sheet, group=reader.group, columns=channels.expected_columns()
+            dialect=self._dialects.get(path.suffix),
+            format=reader.format,
+            sheet=reader.sheet,
+            group=reader.group,
+            columns=channels.expected_columns(),
         )
         if table.dialect is not None:
             self._dialects[path.suffix] = table.dialect
@@ -259,7 +269,7 @@ class Campaign:
 
     def _terms_wanted(self) -> tuple[Term, ...]:
         """Every term that some fit of this campaign will ask for, once each."""
-        lists: list[Sequence[Term]] = [self.file.fit.hull_terms() or ()]
+        lists: list[Sequence[Term]] = [self.file.fit.hull_terms() or default_terms(self.runs)]
         lists += [candidate_terms(name) for name in self.file.fit.candidates]
         unique = {term.factors: term for terms in lists for term in terms}
         return tuple(unique.values())
@@ -334,7 +344,7 @@ class Campaign:
             choices=self._choices(runs, waived, body),
             versions=program_versions(),
         )
-        terms = self.file.fit.hull_terms() or default_terms(runs)
+        terms = self.file.fit.hull_terms() or default_terms([run.run for run in runs])
         if prior is not None:
             drift = any("beta" in term.variables for term in terms)
             prior = prior.to(

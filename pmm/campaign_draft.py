@@ -68,7 +68,9 @@ def draft_campaign(folder: Path, target: Path, *, replace: bool = False) -> str:
     if table is None:
         reason = f" ({unread[0]})" if unread else ""
         raise CampaignError(
-            f"no run file could be read{reason}", cure=f"put files of {', '.join(sorted(_ENDINGS))} there", file=folder
+            f"no run file could be read{reason}",
+            cure=f"put files of {', '.join(sorted(_ENDINGS))} there",
+            file=folder,
         )
     mapped = _guess_channels(table)
     base = target.parent
@@ -161,7 +163,7 @@ def _campaign_text(folder: Path, table: RawTable, mapped: dict[str, str], matrix
         f'matrix = "{matrix}"',
         "",
         "[fit]",
-        "# model = \"mmg\"            # the run types choose the terms when this is left out",
+        '# model = "mmg"            # the run types choose the terms when this is left out',
         "",
     ]
     return "\n".join(lines)

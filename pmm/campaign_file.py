@@ -100,6 +100,13 @@ class SharedBias(_Section):
     moment_x: float = Field(default=0.0, ge=0)
 
 
+class Equality(_Section):
+    """``[[fit.equalities]]``: a linear equation of derivatives of one force, ``sum factor * term = value``."""
+
+    terms: dict[str, float]
+    value: float = 0.0
+
+
 class Fit(_Section):
     """``[fit]``: hull model and estimator."""
 
@@ -114,6 +121,7 @@ class Fit(_Section):
     candidates: list[str] = Field(default_factory=list)
     range_limits: list[float] = Field(default_factory=list)
     bounds: dict[str, tuple[float | None, float | None]] = Field(default_factory=dict)
+    equalities: list[Equality] = Field(default_factory=list)
     fixed: dict[str, float] = Field(default_factory=dict)
     prior: str | None = None
     prior_relative_sd: float = Field(default=0.30, gt=0)
@@ -132,6 +140,16 @@ class Fit(_Section):
                 candidate_terms(name)
         except TowtankError as error:
             raise ValueError(str(error)) from None
+        return self
+
+    @model_validator(mode="after")
+    def _equalities_of_one_force(self) -> Fit:
+        for number, item in enumerate(self.equalities, start=1):
+            if len({name[0] for name in item.terms}) != 1:
+                raise ValueError(f"equality {number} mixes forces; each component is fitted by itself")
+        constraints = self.bounds or self.equalities or self.prior
+        if constraints and self.estimator != "constrained":
+            raise ValueError("bounds, equalities and prior need estimator = 'constrained'")
         return self
 
     def hull_terms(self) -> tuple[Term, ...] | None:

@@ -14,7 +14,7 @@ from ..core.derivative_set import DerivativeSet
 from ..core.errors import TowtankError
 from ..core.findings import Finding, findings_frame
 from .campaign_file import CampaignFile, Heading
-from .hull_fit import HullFit
+from .hull_fit import OUTLYING, HullFit
 from .reduced_run import ReducedRun
 from .rigid_body import RigidBody
 
@@ -176,7 +176,7 @@ class CampaignResult:
 def _verdict(residual: float, run: ReducedRun) -> str:
     if any(f.severity == "error" for f in run.findings):
         return "accepted with errors"
-    if math.isfinite(residual) and residual > 4.0:
+    if math.isfinite(residual) and residual > OUTLYING:
         return "outlying"
     if any(f.severity == "warning" for f in run.findings):
         return "with warnings"

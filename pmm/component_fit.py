@@ -118,8 +118,7 @@ def fit_component(
 
 
 def _unexcited_refused(rows: ForceRows) -> ForceRows:
-    size = np.abs(rows.design).max(axis=0, initial=0.0)
-    dead = [name for name, value in zip(rows.names, size, strict=True) if value == 0.0]
+    dead = [name for name, excited in zip(rows.names, rows.excited, strict=True) if not excited]
     if dead:
         raise FitError(
             f"no run excites {', '.join(dead)}", cure="leave the term out of the model or add runs that vary it"
@@ -179,8 +178,7 @@ def _estimate(
     notes: list[str],
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, dict[str, object]]:
     params, cov = np.asarray(fit.params, float), np.asarray(fit.cov, float)
-    root = np.sqrt(weights)
-    influence = np.linalg.pinv(rows.design * root[:, None]) * root
+    influence = _weighted_inverse(rows.design, np.sqrt(weights))
     extra: dict[str, object] = {}
     if stages is not None:
         influence = staged_influence(rows, weights, stages)
@@ -190,19 +188,12 @@ def _estimate(
     elif settings.estimator == "huber":
         from ..identify.robust import fit_huber
 
-        robust = fit_huber(rows.design * root[:, None], rows.response * root, rows.names, c=settings.huber_c)
+        robust = fit_huber(rows.design, rows.response, rows.names, weights=weights, tuning=settings.huber_c)
         params, cov = np.asarray(robust.params), np.asarray(robust.cov)
-        loss = root * np.sqrt(np.asarray(robust.weights))
-        influence = np.linalg.pinv(rows.design * loss[:, None]) * loss
+        influence = _weighted_inverse(rows.design, np.sqrt(weights * robust.row_weights))
         notes.append(f"Huber loss, c = {settings.huber_c:g} standard deviations")
     elif settings.estimator in ("ridge", "tsvd"):
-        from ..identify.ridge import fit_ridge, fit_truncated_svd
-
-        fit_method = fit_ridge if settings.estimator == "ridge" else fit_truncated_svd
-        shrunk = fit_method(rows.design * root[:, None], rows.response * root, rows.names, groups=rows.run)
-        params, cov = np.asarray(shrunk.params), np.asarray(shrunk.cov)
-        influence = np.asarray(shrunk.influence) * root
-        notes.append(f"{settings.estimator}: {shrunk.note}; intervals do not hold the bias of shrinking")
+        params, cov, influence = _shrunk(rows, settings, weights, notes)
     elif settings.estimator == "constrained":
         params, cov, influence, extra = _constrained(rows, settings, weights, float(fit.scale), prior, notes)
     if settings.covariance == "bootstrap":
@@ -219,6 +210,37 @@ def _estimate(
         cov = np.asarray(boot.cov)
         notes.append(f"covariance from {settings.replicates} bootstrap samples of whole runs")
     return params, cov, influence, extra
+
+
+def _weighted_inverse(design: np.ndarray, root: np.ndarray) -> np.ndarray:
+    """Matrix of weighted least squares: params = matrix @ response."""
+    return np.linalg.pinv(design * root[:, None]) * root
+
+
+def _shrunk(
+    rows: ForceRows, settings: Fit, weights: np.ndarray, notes: list[str]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    from ..identify.ridge import fit_ridge, fit_truncated_svd
+
+    options = {"weights": weights, "groups": rows.run}
+    if settings.estimator == "ridge":
+        result = fit_ridge(rows.design, rows.response, rows.names, **options)
+        notes.append(f"ridge, penalty {result.penalty:.3g} by leaving out runs")
+    else:
+        result = fit_truncated_svd(rows.design, rows.response, rows.names, **options)
+        notes.append(f"truncated SVD, {result.kept} of {len(rows.terms)} directions by leaving out runs")
+    notes.append("intervals do not hold the bias of shrinking")
+    # The same shrinking, written as a matrix on the response: columns at unit weighted mean square.
+    root = np.sqrt(weights)
+    weighted = rows.design * root[:, None]
+    size = np.sqrt((weighted**2).mean(axis=0))
+    u, d, vt = np.linalg.svd(weighted / size, full_matrices=False)
+    if settings.estimator == "ridge":
+        inverse = d / (d**2 + result.penalty)
+    else:
+        inverse = np.where(np.arange(len(d)) < result.kept, 1.0 / d, 0.0)
+    influence = ((vt.T * inverse) @ u.T) / size[:, None] * root
+    return np.asarray(result.params), np.asarray(result.cov), influence
 
 
 def staged_influence(rows: ForceRows, weights: np.ndarray, stages: Sequence[Sequence[str]]) -> np.ndarray:
@@ -250,8 +272,7 @@ def staged_influence(rows: ForceRows, weights: np.ndarray, stages: Sequence[Sequ
                 f"stage {number} ({' '.join(names[i] for i in now)}) has {int(use.sum())} data",
                 cure="use the fit of all runs together (staged = false) or add runs of that kind",
             )
-        root = np.sqrt(weights[use])
-        solve = np.linalg.pinv(rows.design[use][:, now] * root[:, None]) * root
+        solve = _weighted_inverse(rows.design[use][:, now], np.sqrt(weights[use]))
         rest = np.zeros((int(use.sum()), n))
         rest[np.arange(len(rest)), np.flatnonzero(use)] = 1.0
         if done:
@@ -285,26 +306,36 @@ def _constrained(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, dict[str, object]]:
     from ..identify.constrained import fit_constrained
 
-    prior_mean, prior_sd = None, None
+    wishes = None
     if prior:
-        prior_mean = np.array([prior.get(name, np.nan) for name in rows.names])
-        prior_sd = np.abs(prior_mean) * settings.prior_relative_sd
+        wishes = {
+            name: (prior[name], abs(prior[name]) * settings.prior_relative_sd)
+            for name in rows.names
+            if prior.get(name, 0.0) != 0.0
+        }
         notes.append(f"prior: {settings.prior}, {100 * settings.prior_relative_sd:g} % standard deviation")
-    bounds = {name: settings.bounds[name] for name in rows.names if name in settings.bounds}
+    limits = {
+        name: (-np.inf if low is None else low, np.inf if high is None else high)
+        for name, (low, high) in settings.bounds.items()
+        if name in rows.names
+    }
+    equations = [(item.terms, item.value) for item in settings.equalities if set(item.terms) <= set(rows.names)]
     result = fit_constrained(
         rows.design,
         rows.response,
         rows.names,
-        weights=weights / scale,
-        bounds=bounds,
-        prior_mean=prior_mean,
-        prior_sd=prior_sd,
+        bounds=limits,
+        equalities=equations,
+        prior=wishes,
+        noise_sd=float(np.sqrt(scale)),
+        weights=weights,
     )
     if result.active:
         notes.append("constraints that bind: " + ", ".join(result.active))
+    cov = np.asarray(result.cov)
     return (
         np.asarray(result.params),
-        np.asarray(result.cov),
-        np.asarray(result.influence),
-        {"active": list(result.active)},
+        cov,
+        cov @ (rows.design * weights[:, None]).T / scale,
+        {"active": result.active},
     )

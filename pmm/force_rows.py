@@ -10,6 +10,10 @@ import numpy as np
 from ..core.terms import Term
 from .reduced_run import ReducedRun
 
+_ROUNDING = 1e-12
+"""Non-dimensional columns below this are rounding, e.g. the sway velocity in pure yaw."""
+
+
 @dataclass(frozen=True, eq=False)
 class ForceRows:
     """Regression rows of one component.
@@ -43,6 +47,11 @@ class ForceRows:
         """Names of the terms."""
         return [term.name for term in self.terms]
 
+    @property
+    def excited(self) -> np.ndarray:
+        """Mask of the terms that some run excites; rounding of the kinematics excites nothing, shape (p,)."""
+        return np.abs(self.design).max(axis=0, initial=0.0) > _ROUNDING
+
     def only(self, rows: np.ndarray, columns: Sequence[int] | None = None) -> ForceRows:
         """The rows of a mask or index, and the columns of `columns`."""
         keep = list(range(len(self.terms))) if columns is None else list(columns)
@@ -75,17 +84,8 @@ def force_rows(runs: Sequence[ReducedRun], terms: Sequence[Term], component: str
     for index, run in enumerate(runs):
         if component not in run.scaled:
             continue
-        size = len(run.scaled[component])
-        blocks.append(
-            (
-                run.design(own),
-                run.scaled[component],
-                run.scaled_sd[component],
-                np.full(size, index),
-                np.arange(size),
-                run.noise_dof.get(component, np.full(size, np.inf)),
-            )
-        )
+        design, response, sd, dof, harmonic = run.force_rows(component, own)
+        blocks.append((design, response, sd, np.full(len(response), index), harmonic, dof))
     if not blocks:
         empty = np.zeros(0)
         return ForceRows(

@@ -13,14 +13,21 @@ from ..core.conventions import Conventions
 from ..core.derivative_set import DerivativeSet
 from ..core.errors import FitError, TowtankError
 from ..core.hull_models import hull_model
+from ..core.motion import scaled_state
 from ..core.provenance import Provenance
 from ..core.ship import Ship
 from ..core.terms import Term
+from ..core.variables import GRAVITY
 from .campaign_file import Fit
 from .component_fit import ComponentFit, default_stages, fit_component
 from .force_rows import force_rows
 from .reduced_run import FORCES, ReducedRun
+from .run_types import Run
 from .shared_bias import bias_covariance
+
+
+OUTLYING = 4.0
+"""A run is outlying when one of its rows misses the fit by more standard deviations than this."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,38 +54,31 @@ class HullFit:
         return replace(self.derivatives, ship=run.ship).forces(motion, approach_speed=run.motion.speed)
 
 
-def default_terms(runs: Sequence[ReducedRun]) -> tuple[Term, ...]:
+def default_terms(runs: Sequence[Run]) -> tuple[Term, ...]:
     """Terms that the run types of a campaign call for: the MMG model, with heel and bank terms where varied."""
-    kinds = {run.run.kind for run in runs}
-    if any(run.run.bank_position for run in runs):
+    runs = [run for run in runs if not run.dry]
+    kinds = {run.kind for run in runs}
+    if any(run.bank_position for run in runs):
         return hull_model("bank")
-    if any(run.run.heel for run in runs):
+    if any(run.heel for run in runs):
         return hull_model("heel")
-    oscillates = any(run.order for run in runs)
     turns = bool(kinds & {"steady_yaw", "steady_yaw_drift", "pure_yaw", "yaw_drift", "sway_yaw"})
-    drifts = bool(
-        kinds & {"static_drift", "drift_rudder", "pure_sway", "steady_yaw_drift", "yaw_drift", "sway_yaw"}
-    )
-    names = [term.name for term in hull_model("mmg")]
+    both = bool(kinds & {"steady_yaw_drift", "yaw_drift", "sway_yaw"})
+    drifts = both or bool(kinds & {"static_drift", "drift_rudder", "pure_sway"})
+    excited = {
+        "v": drifts,
+        "r": turns,
+        "vdot": bool(kinds & {"pure_sway", "sway_yaw"}),
+        "rdot": bool(kinds & {"pure_yaw", "yaw_drift", "sway_yaw"}),
+    }
     keep = []
-    for name in names:
-        variables = set(Term.parse(name).variables)
-        if variables & {"r", "rdot"} and not turns:
-            continue
-        if variables & {"v", "vdot"} and not drifts:
-            continue
-        if variables & {"vdot", "rdot"} and not oscillates:
-            continue
-        if name == "Yvdot" and "pure_sway" not in kinds and "sway_yaw" not in kinds:
-            continue
-        if name == "Nvdot" and "pure_sway" not in kinds and "sway_yaw" not in kinds:
-            continue
-        if {"v", "r"} <= variables and not kinds & {"steady_yaw_drift", "yaw_drift", "sway_yaw"}:
-            continue
-        keep.append(name)
+    for term in hull_model("mmg"):
+        coupled = {"v", "r"} <= set(term.variables)
+        if all(excited[variable] for variable in term.variables) and (both or not coupled):
+            keep.append(term.name)
     if "pure_surge" in kinds:
         keep.append("Xudot")
-    if any(run.run.rudder_angle for run in runs):
+    if any(run.rudder_angle for run in runs):
         keep += ["Xdd", "Yd", "Nd"]
     return tuple(Term.parse(name) for name in keep)
 
@@ -124,7 +124,9 @@ def fit_hull(
     runs = tuple(run for run in runs if not run.run.dry)
     if not runs:
         raise FitError("there is no run to fit", cure="add [[runs]] or [points]")
-    wanted = tuple(terms) if terms is not None else settings.hull_terms() or default_terms(runs)
+    wanted = (
+        tuple(terms) if terms is not None else settings.hull_terms() or default_terms([run.run for run in runs])
+    )
     measured = [c for c in FORCES if any(c in run.scaled for run in runs)]
     used = tuple(term for term in wanted if term.component in measured)
     if not used:
@@ -237,13 +239,11 @@ def _validity(runs: Sequence[ReducedRun], terms: Sequence[Term]) -> dict[str, tu
     for run in runs:
         count = 24 if run.order else 1
         period = run.run.period if run.order else 0.0
-        from ..core.motion import scaled_state
-
         times = run.window.start + period * np.arange(count) / count
         state, speed = scaled_state(
             run.motion.at(times), run.ship, Conventions(velocity_scale=run.velocity_scale), run.motion.speed
         )
-        state["Fn"] = speed / math.sqrt(9.80665 * run.ship.L)
+        state["Fn"] = speed / math.sqrt(GRAVITY * run.ship.L)
         for variable in (used | {"Fn"}) & set(state):
             low[variable] = min(low.get(variable, math.inf), float(np.min(state[variable])))
             high[variable] = max(high.get(variable, -math.inf), float(np.max(state[variable])))
@@ -256,7 +256,8 @@ def _diagnostics(runs: Sequence[ReducedRun], components: Mapping[str, ComponentF
         fit = result.fit
         if fit is None:
             continue
-        outlying = sorted(runs[int(index)].name for index in fit.outlying())
+        size = np.abs(result.residual) / np.where(result.row_sd > 0, result.row_sd, np.inf)
+        outlying = sorted({runs[index].name for index in result.rows.run[size > OUTLYING].tolist()})
         leverage = np.zeros(len(runs))
         np.add.at(leverage, result.rows.run, np.asarray(fit.leverage))
         heaviest = np.argsort(leverage)[::-1][:3]

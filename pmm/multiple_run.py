@@ -121,7 +121,7 @@ def multiple_run_curves(
     """
     if ordinate not in ("amplitude", "ratio"):
         raise FitError(f"there is no ordinate '{ordinate}'", cure="use amplitude or ratio")
-    wanted = tuple(terms) if terms is not None else default_terms(runs)
+    wanted = tuple(terms) if terms is not None else default_terms([run.run for run in runs])
     left_out: list[str] = []
     wet = [_Test(run, _motion(run, left_out)) for run in runs if not run.run.dry]
     curves: list[AmplitudeCurve] = []

@@ -14,8 +14,7 @@ from ..core.scales import force_unit
 from ..core.ship import Ship
 from ..core.terms import Term
 from ..identify.design_optimality import run_information
-from ..identify.harmonic_basis import HarmonicProjector
-from ..identify.harmonics import whole_cycle_window
+from ..identify.harmonics import HarmonicProjector, whole_cycle_window
 from .laboratory import Laboratory
 from .noise import Noise
 from .planar_motion import prescribed_motion

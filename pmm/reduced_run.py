@@ -8,11 +8,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..core.conventions import Conventions
+from ..core.errors import FitError
 from ..core.findings import Finding
 from ..core.motion import scaled_state
 from ..core.ship import Ship
 from ..core.terms import Factor, Term
-from ..identify.harmonic_basis import HarmonicProjector
+from ..identify.harmonics import HarmonicProjector
 from .planar_motion import PlanarMotion
 from .run_types import Run
 
@@ -52,6 +53,60 @@ class Window:
 
 
 @dataclass(frozen=True, eq=False)
+class TimeRows:
+    """Every sample of a window, condensed without loss for least squares.
+
+    With [A y] = Q R, the few rows of R give the same normal equations as the thousands of samples.
+
+    Attributes
+    ----------
+    triangle : ndarray, shape (q, q)
+        R of the columns of all terms, then of the scaled forces.
+    factors : tuple
+        Which term each column belongs to.
+    forces : tuple of str
+        Forces in the last columns.
+    sd : mapping of str to float
+        Noise of a sample that counts for slow motions: root of the noise density at the run's frequency.
+    """
+
+    triangle: np.ndarray
+    factors: tuple[tuple[Factor, ...], ...]
+    forces: tuple[str, ...]
+    sd: Mapping[str, float]
+
+    @classmethod
+    def condensed(
+        cls,
+        columns: Mapping[tuple[Factor, ...], np.ndarray],
+        scaled: Mapping[str, np.ndarray],
+        sd: Mapping[str, float],
+    ) -> TimeRows:
+        """Rows from the columns of all terms and the scaled forces, each of shape (n,)."""
+        stacked = np.column_stack([*columns.values(), *scaled.values()])
+        return cls(np.linalg.qr(stacked, mode="r"), tuple(columns), tuple(scaled), dict(sd))
+
+    def rows(self, component: str, terms: Sequence[Term]) -> tuple[np.ndarray, np.ndarray]:
+        """Design and response of one component.
+
+        Raises
+        ------
+        FitError
+            For a term whose column was not made when the run was read.
+        """
+        missing = [term.name for term in terms if term.factors not in self.factors]
+        if missing:
+            raise FitError(
+                f"the time-domain rows have no column for {', '.join(missing)}",
+                cure="name the term in [fit] or its candidates, so that it is made when the runs are read",
+            )
+        pick = [self.factors.index(term.factors) for term in terms]
+        sign = np.array([float(term.sign) for term in terms])
+        force = len(self.factors) + self.forces.index(component)
+        return self.triangle[:, pick] * sign, self.triangle[:, force]
+
+
+@dataclass(frozen=True, eq=False)
 class ReducedRun:
     """One run after reduction, in home axes and signs about midship.
 
@@ -82,6 +137,8 @@ class ReducedRun:
     sha256 : str
     series : mapping of str to ndarray
         Force series of the window in N for the report; kept for a few runs only.
+    samples : TimeRows or None
+        All samples of the window, condensed for a fit in the time domain.
     """
 
     run: Run
@@ -99,6 +156,7 @@ class ReducedRun:
     findings: tuple[Finding, ...] = ()
     sha256: str = ""
     series: Mapping[str, np.ndarray] = field(default_factory=dict)
+    samples: TimeRows | None = None
     columns: dict[tuple[Factor, ...], np.ndarray] = field(default_factory=dict, repr=False)
 
     @property
@@ -120,6 +178,28 @@ class ReducedRun:
             return np.zeros((2 * self.order + 1, 0))
         return np.column_stack([term.sign * self.columns[term.factors] for term in terms])
 
+    def force_rows(
+        self, component: str, terms: Sequence[Term]
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Regression rows of one component: design, response, standard errors, their dof, harmonic numbers.
+
+        In the time domain there are as many rows as condensed columns, all counted as harmonic 0.
+        """
+        if self.samples is None:
+            size = len(self.scaled[component])
+            dof = self.noise_dof.get(component, np.full(size, np.inf))
+            return self.design(terms), self.scaled[component], self.scaled_sd[component], dof, np.arange(size)
+        design, response = self.samples.rows(component, terms)
+        size = len(response)
+        dof = float(np.min(self.noise_dof[component]))
+        return (
+            design,
+            response,
+            np.full(size, self.samples.sd[component]),
+            np.full(size, dof),
+            np.zeros(size, dtype=int),
+        )
+
     def state(self) -> dict[str, float]:
         """Mean non-dimensional state of the run: v, r, beta, phi, delta, eta."""
         times = self.window.times if self.order else np.array([self.window.start])
@@ -137,7 +217,6 @@ def project_terms(
     ship: Ship,
     velocity_scale: str,
     projector: HarmonicProjector | None = None,
-    at: Mapping[str, np.ndarray] | None = None,
 ) -> dict[tuple[Factor, ...], np.ndarray]:
     """Mean and harmonics of each product of factors over a window.
 
@@ -150,19 +229,26 @@ def project_terms(
     velocity_scale : {"instantaneous", "approach"}
     projector : HarmonicProjector, optional
         That of the window, when it is there already.
-    at : mapping, optional
-        Motion at the window's times, when it is there already.
     """
-    steady = order == 0
-    times = np.array([window.start]) if steady else window.times
-    if at is None or steady:
-        at = motion.at(times)
-    state, _ = scaled_state(at, ship, Conventions(velocity_scale=velocity_scale), motion.speed)
-    unique = {term.factors: term for term in terms}
-    values = np.empty((len(times), len(unique)))
-    for column, term in enumerate(unique.values()):
-        values[:, column] = term.sign * term.column(state)
-    if not steady:
-        projector = projector or HarmonicProjector(times, motion.omega, order)
-        values = projector.project(values)
-    return {factors: values[:, column] for column, factors in enumerate(unique)}
+    times = window.times if order else np.array([window.start])
+    columns = term_columns(motion.at(times), terms, ship, velocity_scale, motion.speed)
+    if not order or not columns:
+        return columns
+    projector = projector or HarmonicProjector(times, motion.omega, order)
+    return projected(columns, projector)
+
+
+def projected(
+    columns: Mapping[tuple[Factor, ...], np.ndarray], projector: HarmonicProjector
+) -> dict[tuple[Factor, ...], np.ndarray]:
+    """Mean and harmonics of columns of samples."""
+    values = projector.project(np.column_stack(list(columns.values())))
+    return {factors: values[:, i] for i, factors in enumerate(columns)}
+
+
+def term_columns(
+    at: Mapping[str, np.ndarray], terms: Iterable[Term], ship: Ship, velocity_scale: str, approach_speed: float
+) -> dict[tuple[Factor, ...], np.ndarray]:
+    """Product of factors of each term at every sample of a motion (sign of the term left out)."""
+    state, _ = scaled_state(at, ship, Conventions(velocity_scale=velocity_scale), approach_speed)
+    return {term.factors: term.sign * term.column(state) for term in terms}

@@ -20,12 +20,12 @@ from ..core.scales import force_unit
 from ..core.ship import Ship
 from ..core.terms import Term
 from ..identify.autocorrelation import mean_with_error
-from ..identify.harmonic_basis import HarmonicProjector
+from ..identify.harmonics import HarmonicProjector
 from ..identify.harmonics import find_frequency, fit_harmonics, whole_cycle_window
 from ..identify.steady_window import steady_window
 from .campaign_file import Reduction
 from .planar_motion import PlanarMotion, measured_motion, prescribed_motion
-from .reduced_run import FORCES, ReducedRun, Window, project_terms
+from .reduced_run import FORCES, ReducedRun, TimeRows, Window, projected, term_columns
 from .rigid_body import RigidBody
 from .run_types import Run
 
@@ -50,6 +50,8 @@ class ReductionPlan:
         Terms whose columns are wanted right away.
     keep_series : frozenset of str
         Names of the runs whose series the report shows.
+    time_domain : bool
+        Keep every sample, condensed, for a fit in the time domain.
     """
 
     settings: Reduction
@@ -59,6 +61,7 @@ class ReductionPlan:
     tare: Mapping[str, Mapping[str, float]] | None = None
     terms: tuple[Term, ...] = ()
     keep_series: frozenset[str] = frozenset()
+    time_domain: bool = False
 
 
 def reduce_run(record: Record, run: Run, plan: ReductionPlan, findings: tuple[Finding, ...] = ()) -> ReducedRun:
@@ -132,9 +135,20 @@ def _reduce(record: Record, run: Run, plan: ReductionPlan, findings: tuple[Findi
     else:
         result = _means(forces, scaled)
     order = settings.harmonics if run.harmonic else 0
-    columns = project_terms(
-        motion, window, order, plan.terms, ship, settings.nondimensional_speed, result.projector, at
-    )
+    if order == 0 and not plan.time_domain:
+        at = {name: values[:1] for name, values in at.items()}
+    columns = term_columns(at, plan.terms, ship, settings.nondimensional_speed, motion.speed)
+    samples = None
+    if plan.time_domain:
+        root = math.sqrt(window.count)
+        line = 1 if run.harmonic else 0
+        # sd of a coefficient is sqrt(2 S/n) for a cosine, sqrt(S/n) for a mean
+        noise = {name: sd[line] * root / math.sqrt(1 + line) for name, sd in result.scaled_sd.items()}
+        samples = TimeRows.condensed(columns, scaled, noise)
+    if result.projector is not None and columns:
+        columns = projected(columns, result.projector)
+    elif columns:
+        columns = {factors: values[:1].copy() for factors, values in columns.items()}
     return ReducedRun(
         run=run,
         ship=ship,
@@ -151,6 +165,7 @@ def _reduce(record: Record, run: Run, plan: ReductionPlan, findings: tuple[Findi
         findings=findings,
         sha256=record.sha256,
         series=forces if run.name in plan.keep_series else {},
+        samples=samples,
         columns=columns,
     )
 

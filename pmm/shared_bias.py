@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.errors import FitError
 from ..core.scales import force_unit
+from ..identify.shared_bias import propagate_bias
 from .campaign_file import SharedBias
 from .component_fit import ComponentFit
 from .planar_motion import Oscillation, PlanarMotion
@@ -66,13 +67,14 @@ def bias_covariance(
         Root sum of squares over the coefficients, by source.
     """
     size = sum(len(fit.params) for fit in components.values())
-    total = np.zeros((size, size))
-    shares: dict[str, float] = {}
-    for source, (u, effect) in bias_effects(runs, components, bias).items():
-        vector = u * effect
-        total += np.outer(vector, vector)
-        shares[source] = float(np.sqrt(vector @ vector))
-    return total, shares
+    effects = bias_effects(runs, components, bias)
+    if not effects:
+        return np.zeros((size, size)), {}
+    uncertainty = np.array([u for u, _ in effects.values()])
+    vectors = np.column_stack([vector for _, vector in effects.values()])
+    shares = np.sqrt(((vectors * uncertainty) ** 2).sum(axis=0))
+    covariance = propagate_bias(np.eye(size), vectors, uncertainty)
+    return covariance, dict(zip(effects, shares.tolist(), strict=True))
 
 
 def _check(component: str, components: Mapping[str, ComponentFit]) -> None:

@@ -55,7 +55,7 @@ def carriage_profile(time: np.ndarray, laboratory: Laboratory) -> tuple[np.ndarr
     rising = np.clip((time - laboratory.rest) / ramp, 0.0, 1.0)
     braking = time - laboratory.rest - ramp - laboratory.duration
     falling = np.clip(braking / ramp, 0.0, 1.0)
-    step = np.polynomial.Polynomial([0, 0, 3, -2])
+    step = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
     share = step(rising) - step(falling)
     rate = (step.deriv()(rising) - step.deriv()(falling)) / ramp
     # What lies beyond each ramp is travelled at full speed by the one and taken back by the other.

@@ -60,9 +60,8 @@ def test_trailing_separator_is_no_column():
 
 
 def test_aligned_table_with_names_of_two_words_and_units():
-    text = (
-        "Lab: Tank 2\n\nZeit   Kraft vorn   Kraft achtern\n[s]    [N]          [N]\n"
-        + "".join(f"{n / 100:.2f}   1.25         -3.50\n" for n in range(9))
+    text = "Lab: Tank 2\n\nZeit   Kraft vorn   Kraft achtern\n[s]    [N]          [N]\n" + "".join(
+        f"{n / 100:.2f}   1.25         -3.50\n" for n in range(9)
     )
     found = sniff(text.encode())
     assert (found.delimiter, found.names) == (" ", ("Zeit", "Kraft vorn", "Kraft achtern"))

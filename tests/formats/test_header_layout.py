@@ -115,6 +115,12 @@ def test_commented_names_count_but_not_a_commented_sentence():
     assert found.names_row is None
 
 
+def test_comments_above_the_names_may_have_as_many_words():
+    remark = ["run", "number", "three"]
+    assert layout(remark, ["t", "Fx", "Fy"], comments=(0,)).names == ("t", "Fx", "Fy")
+    assert layout(["t", "Fx", "Fy"], remark, comments=(1,)).names == ("t", "Fx", "Fy")
+
+
 def test_row_with_a_fault_under_the_names_is_data():
     bulk = [["0", "abc", "2"], *DATA]
     assert layout(["t", "Fx", "Fy"], bulk=bulk).first_data == 1

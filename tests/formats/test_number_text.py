@@ -35,7 +35,16 @@ def test_missing_values(text):
 
 @pytest.mark.parametrize(
     ("text", "decimal"),
-    [("abc", "."), ("1,5", "."), ("1.5", ","), ("1,", ","), ("0x10", "."), ("1_000", "."), ("1.2.3", "."), ("-", ".")],
+    [
+        ("abc", "."),
+        ("1,5", "."),
+        ("1.5", ","),
+        ("1,", ","),
+        ("0x10", "."),
+        ("1_000", "."),
+        ("1.2.3", "."),
+        ("-", "."),
+    ],
 )
 def test_text_is_no_number(text, decimal):
     assert not is_number(text, decimal)

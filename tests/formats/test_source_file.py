@@ -16,7 +16,7 @@ def test_reads_bytes_and_their_digest(tmp_path):
 
 
 def test_missing_file_is_named(tmp_path):
-    with pytest.raises(ReadError, match="run7.csv: file not found ->"):
+    with pytest.raises(ReadError, match=r"run7.csv: file not found ->"):
         SourceFile.read(tmp_path / "run7.csv")
 
 

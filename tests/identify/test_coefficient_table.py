@@ -8,9 +8,7 @@ from towtank.core.errors import FitError
 from towtank.identify.coefficient_table import CoefficientTable
 
 COV = np.array([[4.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
-TABLE = CoefficientTable(
-    ("Yv", "Yr", "Y0"), np.array([2.0, -3.0, 1.0]), COV, np.array([5.0, 12.0, 5.0]), 0.95
-)
+TABLE = CoefficientTable(("Yv", "Yr", "Y0"), np.array([2.0, -3.0, 1.0]), COV, np.array([5.0, 12.0, 5.0]), 0.95)
 
 
 def test_names_find_their_coefficients() -> None:

@@ -9,8 +9,8 @@ from towtank.identify.regression import fit_linear
 
 RNG = np.random.default_rng(0)
 NAMES = ("Y0", "Yv", "Yvvv")
-GROUPS = np.repeat(np.arange(10), [7, 5, 9, 2, 6, 8, 3, 5, 4, 6])
-N = GROUPS.size
+run_of_row = np.repeat(np.arange(10), [7, 5, 9, 2, 6, 8, 3, 5, 4, 6])
+N = run_of_row.size
 V = RNG.uniform(-0.3, 0.3, N)
 X = np.column_stack([np.ones(N), V, V**3])
 W = RNG.uniform(0.5, 2.0, N)
@@ -18,13 +18,13 @@ Y = X @ [0.1, -0.3, -1.6] + 0.01 * RNG.standard_normal(N)
 
 
 def blocks():
-    return ((X[GROUPS == g], Y[GROUPS == g], W[GROUPS == g]) for g in range(10))
+    return ((X[run_of_row == g], Y[run_of_row == g], W[run_of_row == g]) for g in range(10))
 
 
 @pytest.mark.parametrize("covariance", ["model", "cluster"])
 def test_run_by_run_equals_all_at_once(covariance) -> None:
     stacked = fit_stacked(blocks(), NAMES, covariance=covariance)
-    together = fit_linear(X, Y, NAMES, weights=W, groups=GROUPS, covariance=covariance)
+    together = fit_linear(X, Y, NAMES, weights=W, groups=run_of_row, covariance=covariance)
     np.testing.assert_allclose(stacked.params, together.params, rtol=1e-11)
     np.testing.assert_allclose(stacked.cov, together.cov, rtol=1e-8)
     np.testing.assert_allclose(stacked.t_dof, together.t_dof, rtol=1e-8)
@@ -63,7 +63,7 @@ def test_accumulators_of_two_workers_merge() -> None:
 def test_parts_of_one_run_join_under_its_label() -> None:
     equations = NormalEquations(3, NAMES)
     for g in range(10):
-        for rows in np.array_split(np.flatnonzero(GROUPS == g), 2):
+        for rows in np.array_split(np.flatnonzero(run_of_row == g), 2):
             equations.add(X[rows], Y[rows], W[rows], group=f"run{g}")
     fit = equations.solve(covariance="cluster")
     assert fit.n_groups == 10

@@ -9,11 +9,11 @@ from towtank.identify.regression import fit_linear
 from towtank.identify.sandwich import cluster_covariance, group_geometry, hac_covariance, hc3_covariance
 
 RNG = np.random.default_rng(0)
-GROUPS = np.repeat(np.arange(9), [3, 5, 4, 6, 2, 7, 3, 5, 4])
-N = GROUPS.size
-X = np.column_stack([np.ones(N), RNG.standard_normal((N, 2)), RNG.standard_normal(9)[GROUPS]])
-Y = X @ [1.0, -2.0, 0.5, 0.3] + RNG.standard_normal(N) + RNG.standard_normal(9)[GROUPS]
-FIT = fit_linear(X, Y, list("abcd"), groups=GROUPS)
+run_of_row = np.repeat(np.arange(9), [3, 5, 4, 6, 2, 7, 3, 5, 4])
+N = run_of_row.size
+X = np.column_stack([np.ones(N), RNG.standard_normal((N, 2)), RNG.standard_normal(9)[run_of_row]])
+Y = X @ [1.0, -2.0, 0.5, 0.3] + RNG.standard_normal(N) + RNG.standard_normal(9)[run_of_row]
+FIT = fit_linear(X, Y, list("abcd"), groups=run_of_row)
 
 
 def direct_cluster(exponent: float) -> tuple[np.ndarray, np.ndarray]:
@@ -24,7 +24,7 @@ def direct_cluster(exponent: float) -> tuple[np.ndarray, np.ndarray]:
     meat = np.zeros((4, 4))
     adjust = np.zeros((N, N))
     for g in range(9):
-        rows = np.flatnonzero(GROUPS == g)
+        rows = np.flatnonzero(run_of_row == g)
         block = fractional_matrix_power(np.eye(rows.size) - hat[np.ix_(rows, rows)], exponent).real
         adjust[np.ix_(rows, rows)] = block
         score = X[rows].T @ block @ residual[rows]
@@ -33,7 +33,7 @@ def direct_cluster(exponent: float) -> tuple[np.ndarray, np.ndarray]:
     for j in range(4):
         columns = np.zeros((N, 9))
         for g in range(9):
-            rows = GROUPS == g
+            rows = run_of_row == g
             columns[rows, g] = (adjust[np.ix_(rows, rows)] @ X[rows] @ bread)[:, j]
         spread = columns.T @ (np.eye(N) - hat) @ columns
         dof.append(np.trace(spread) ** 2 / np.sum(spread**2))
@@ -41,9 +41,7 @@ def direct_cluster(exponent: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 @pytest.mark.parametrize(("correction", "exponent"), [("cr2", -0.5), ("cr3", -1.0)])
-def test_small_matrices_give_the_cluster_corrections_of_the_definition(
-    correction: str, exponent: float
-) -> None:
+def test_small_matrices_give_the_cluster_corrections_of_the_definition(correction: str, exponent: float) -> None:
     cov, dof = cluster_covariance(FIT.geometry, FIT.back, FIT.scale, FIT.dof, correction)
     expected, expected_dof = direct_cluster(exponent)
     np.testing.assert_allclose(cov, expected, rtol=1e-9)
@@ -55,7 +53,7 @@ def test_cr2_is_unbiased_for_alike_errors() -> None:
     total = np.zeros((4, 4))
     for column in y.T:
         residual = column - FIT.q @ (FIT.q.T @ column)
-        geometry = group_geometry(FIT.q, residual, GROUPS)
+        geometry = group_geometry(FIT.q, residual, run_of_row)
         total += cluster_covariance(geometry, FIT.back, 1.0, FIT.dof, "cr2")[0]
     expected = np.diagonal(np.linalg.inv(X.T @ X))
     np.testing.assert_allclose(np.diagonal(total) / 3000, expected, rtol=0.06)
@@ -63,8 +61,8 @@ def test_cr2_is_unbiased_for_alike_errors() -> None:
 
 def test_groups_need_not_be_in_order() -> None:
     order = np.random.default_rng(2).permutation(N)
-    shuffled = fit_linear(X[order], Y[order], list("abcd"), groups=GROUPS[order], covariance="cluster")
-    ordered = fit_linear(X, Y, list("abcd"), groups=GROUPS, covariance="cluster")
+    shuffled = fit_linear(X[order], Y[order], list("abcd"), groups=run_of_row[order], covariance="cluster")
+    ordered = fit_linear(X, Y, list("abcd"), groups=run_of_row, covariance="cluster")
     np.testing.assert_allclose(shuffled.cov, ordered.cov, rtol=1e-10)
     np.testing.assert_allclose(shuffled.t_dof, ordered.t_dof, rtol=1e-10)
 
@@ -72,14 +70,14 @@ def test_groups_need_not_be_in_order() -> None:
 def test_deleted_residuals_are_those_of_a_refit() -> None:
     deleted = FIT.geometry.deleted_residuals(FIT.q, FIT.resid)
     for g in (0, 4):
-        kept = GROUPS != g
+        kept = run_of_row != g
         params = np.linalg.lstsq(X[kept], Y[kept], rcond=None)[0]
         np.testing.assert_allclose(deleted[~kept], Y[~kept] - X[~kept] @ params, atol=1e-10)
 
 
 def test_term_that_one_run_alone_supports_keeps_its_model_error() -> None:
-    design = np.column_stack([X, np.where(GROUPS == 3, RNG.standard_normal(N), 0.0)])
-    clustered = fit_linear(design, Y, list("abcde"), groups=GROUPS, covariance="cluster")
+    design = np.column_stack([X, np.where(run_of_row == 3, RNG.standard_normal(N), 0.0)])
+    clustered = fit_linear(design, Y, list("abcde"), groups=run_of_row, covariance="cluster")
     model = fit_linear(design, Y, list("abcde"))
     assert clustered.bse[4] > 0.3 * model.bse[4]
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from towtank.core.errors import FitError
-from towtank.identify.harmonic_basis import HarmonicProjector, checked_time, harmonic_basis
+from towtank.identify.harmonic_projection import HarmonicProjector, checked_time, harmonic_basis
 
 
 def test_basis_columns_are_mean_cosine_sine() -> None:

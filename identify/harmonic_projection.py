@@ -75,6 +75,12 @@ def checked_time(t: np.ndarray) -> tuple[np.ndarray, float, bool]:
     return time, mean_step, longest - shortest <= 2e-6 * mean_step
 
 
+def require_positive_frequency(omega: float) -> None:
+    """Raise :class:`FitError` unless `omega` is a positive number."""
+    if not (omega > 0.0 and math.isfinite(omega)):
+        raise FitError(f"the frequency {omega} rad/s is not positive", cure="give omega in rad/s")
+
+
 class HarmonicProjector:
     """Least-squares projection on mean and harmonics, factorised once and used for many channels.
 
@@ -110,8 +116,7 @@ class HarmonicProjector:
         self, t: np.ndarray, omega: float, order: int, *, phase: float = 0.0, trend: bool = False
     ) -> None:
         time, self.time_step, self.uniform = checked_time(t)
-        if not (omega > 0.0 and math.isfinite(omega)):
-            raise FitError(f"the frequency {omega} rad/s is not positive", cure="give omega in rad/s")
+        require_positive_frequency(omega)
         if order < 0:
             raise FitError(f"the harmonic order {order} is negative", cure="use 1 or more")
         self.omega, self.order, self.phase, self.trend = float(omega), int(order), float(phase), trend

@@ -1,0 +1,99 @@
+"""The audit of one run: the header of its file, and its record in SI against the test matrix.
+
+Every check is a named rule of :mod:`~towtank.pmm.audit_rules`. A clean record costs a fraction of a millisecond.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from ..core.findings import Finding
+from ..core.record import Record
+from ..core.ship import Ship
+from .audit_channels import audit_channels, audit_steadiness
+from .audit_motion import audit_oscillation
+from .audit_rules import finding
+from .audit_steady_motion import audit_constant_angles, audit_steady_motion, rows_at_speed
+from .audit_table import audit_table
+from .audit_time import audit_time
+from .run_types import Run
+
+__all__ = ["audit_record", "audit_table"]
+
+_LIVELY = {
+    "pure_sway": frozenset({"y", "v", "vdot", "Y", "N"}),
+    "pure_yaw": frozenset({"y", "psi", "r", "rdot", "Y", "N"}),
+    "yaw_drift": frozenset({"y", "psi", "r", "rdot", "Y", "N"}),
+    "sway_yaw": frozenset({"y", "psi", "r", "rdot", "Y", "N"}),
+    "pure_surge": frozenset({"u", "udot", "X"}),
+    "dry_sway": frozenset({"y", "Y"}),
+    "dry_yaw": frozenset({"psi", "r", "rdot", "N"}),
+    "dry_surge": frozenset({"u", "udot", "X"}),
+}
+
+
+def audit_record(record: Record, run: Run, ship: Ship, *, reference: float = 0.0) -> list[Finding]:
+    """Findings about the record of one run.
+
+    Parameters
+    ----------
+    record : Record
+        Channels in SI, home axes and signs, by their standard names; ``time`` is needed.
+    run : Run
+        What the test matrix says.
+    ship : Ship
+    reference : float
+        Point that follows the prescribed path, m forward of midship.
+
+    Returns
+    -------
+    list of Finding
+        In the order of the checks; empty for a clean record.
+
+    Raises
+    ------
+    ReadError
+        When the record has no time channel.
+    """
+    time = record.time
+    found, usable = audit_time(time)
+    if usable:
+        lively = _LIVELY.get(run.kind, frozenset())
+        found += audit_channels(record.channels, time, harmonic=run.harmonic, lively=lively)
+        incomplete = {item.place for item in found if item.rule == "missing-values"}
+        channels = {
+            name: values for name, values in record.channels.items() if f"channel {name}" not in incomplete
+        }
+        if run.harmonic:
+            cycles = _cycles(time, run)
+            found += cycles
+            if not any(item.severity == "error" for item in cycles):
+                found += audit_oscillation(channels, time, run, ship, reference)
+            rows = slice(0, len(time))
+        else:
+            rows = rows_at_speed(channels, len(time))
+            found += audit_steadiness(channels, rows)
+            found += audit_steady_motion(channels, time, rows, run, ship, reference)
+        found += audit_constant_angles(channels, rows, run)
+    return [
+        replace(item, file=record.source, place=f"run '{run.name}'" + (f", {item.place}" if item.place else ""))
+        for item in found
+    ]
+
+
+def _cycles(time: np.ndarray, run: Run) -> list[Finding]:
+    length = float(time[-1] - time[0]) * len(time) / (len(time) - 1)
+    cycles = length / run.period
+    if cycles >= 1.95 or not math.isfinite(cycles):
+        return []
+    return [
+        finding(
+            "short-of-whole-cycles",
+            f"the record of {length:.4g} s holds {cycles:.2f} cycles of {run.period:.4g} s; two are needed to "
+            "leave out the transient",
+            severity="error" if cycles < 0.98 else "warning",
+        )
+    ]
