@@ -8,7 +8,7 @@ and the column of what cannot.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -66,20 +66,35 @@ def parse_delimited(
     """Read a text table from bytes in memory; see :func:`read_delimited`."""
     data = as_single_bytes(source.data)
     wanted = None if columns is None else list(columns)
-    known = dialect.adapt(data) if dialect is not None else None
-    form = known or sniff(data, source.path)
-    names = choose_columns(wanted, form.names, form.text_names, file=source.path)
-    try:
-        body = _parse(data, form, names, source.path)
-    except ReadError:
-        # The headings agree with the run before but the body may be written otherwise (decimal comma).
-        if known is None:
-            raise
-        form = sniff(data, source.path)
-        if (form.delimiter, form.decimal, form.names) == (known.delimiter, known.decimal, known.names):
-            raise
+    fault: ReadError | None = None
+    for form in _possible_forms(data, dialect, source.path):
         names = choose_columns(wanted, form.names, form.text_names, file=source.path)
-        body = _parse(data, form, names, source.path)
+        try:
+            body = _parse(data, form, names, source.path)
+        except ReadError as error:
+            fault = fault or error
+        else:
+            return _table(source, form, names, body)
+    assert fault is not None
+    raise fault
+
+
+def _possible_forms(data: bytes, dialect: Dialect | None, file: str) -> Iterator[Dialect]:
+    """Forms in which the file may be written, the likeliest first."""
+    known = dialect.adapt(data) if dialect is not None else None
+    if known is not None:
+        yield known
+    # The headings may agree with the run before and the body be exported otherwise.
+    found = sniff(data, file)
+    if found != known:
+        yield found
+    # The lines that were looked at may hold whole numbers only. A mixture of both signs stays an error.
+    other = "," if found.decimal == "." else "."
+    if other != found.delimiter:
+        yield replace(found, decimal=other)
+
+
+def _table(source: SourceFile, form: Dialect, names: Sequence[str], body: _Body) -> RawTable:
     findings = [replace(finding, file=source.path) for finding in form.findings] + body.faults.findings(
         source.path
     )

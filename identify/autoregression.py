@@ -79,11 +79,10 @@ class AutoregressiveNoise:
             a = self.coefficients[channel, : order + 1]
             phasors = np.exp(-2j * np.pi * np.outer(f, np.arange(order + 1)))
             gradient = -2.0 * np.real(phasors[:, 1:] / (phasors @ a)[:, None])
-            ahead, back = np.zeros_like(gradient), np.zeros_like(gradient)
-            for lag in range(order):
-                ahead[:, : order - lag] += a[lag] * gradient[:, lag:]
-                back[:, : order - lag] += a[order - lag] * gradient[:, lag:]
-            spread = (ahead**2).sum(axis=1) - (back**2).sum(axis=1)
+            lag = np.subtract.outer(np.arange(order), np.arange(order))
+            ahead = gradient @ np.where(lag >= 0, a[lag], 0.0)
+            back = gradient @ np.where(lag >= 0, a[order - lag.clip(0)], 0.0)
+            spread = (ahead**2 - back**2).sum(axis=1)
             # Never negative but by rounding, near a unit root.
             result[:, channel] = 2.0 * self.blocks / (2.0 + np.maximum(spread, 0.0))
         # Fewer than two degrees of freedom give an interval without a finite variance: no more can be said.

@@ -17,7 +17,7 @@ import numpy as np
 from ..core.errors import FitError
 from .coefficient_table import CoefficientTable
 from .regression_input import checked_regression
-from .sandwich import FULL_LEVERAGE, geometry_of_blocks
+from .sandwich import FULL_LEVERAGE
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -260,9 +260,13 @@ class _Split:
         fitted = np.concatenate([np.zeros(q), shrink * self.along])
         scores = (self.projected - self.grams @ fitted) * root
         grams = self.grams * root[:, None] * root
-        geometry = geometry_of_blocks(np.arange(self.sizes.size), self.codes, self.sizes, grams, scores)
-        if np.any(geometry.leverage >= FULL_LEVERAGE):
+        open_ = np.eye(root.size) - grams
+        try:
+            pivots = np.diagonal(np.linalg.cholesky(open_), axis1=1, axis2=2)
+        except np.linalg.LinAlgError:
             return math.inf
-        shift = geometry.adjusted_scores(-1.0)
+        if pivots.min() ** 2 <= 1.0 - FULL_LEVERAGE:
+            return math.inf
+        shift = np.linalg.solve(open_, scores[:, :, None])[:, :, 0]
         extra = 2.0 * np.einsum("gi,gi->", shift, scores) + np.einsum("gi,gij,gj->", shift, grams, shift)
         return math.sqrt(max(float(missed @ missed) + float(extra), 0.0) / self.y.size)

@@ -147,11 +147,12 @@ def cluster_covariance(
 
     # Variance of the estimator under alike errors: P = diag(a_g'a_g) - b_g'b_h, see Bell and McCaffrey.
     factor = geometry.power(exponents[correction])
-    turned = np.einsum("gji,pj->gip", geometry.vectors, back)
+    turned = geometry.vectors.transpose(0, 2, 1) @ back.T
     squares = np.einsum("gi,gip->gp", geometry.leverage * factor**2, turned**2)
-    shadows = np.einsum("gij,gjp->gip", geometry.vectors, (geometry.leverage * factor)[:, :, None] * turned)
-    lengths = np.einsum("gip,gip->gp", shadows, shadows)
-    overlap = np.einsum("gip,gjp->pij", shadows, shadows)
+    shadows = geometry.vectors @ ((geometry.leverage * factor)[:, :, None] * turned)
+    lengths = (shadows**2).sum(axis=1)
+    of_term = np.ascontiguousarray(shadows.transpose(2, 0, 1))
+    overlap = of_term.transpose(0, 2, 1) @ of_term
     trace = (squares - lengths).sum(axis=0)
     trace_of_square = (squares**2 - 2.0 * squares * lengths).sum(axis=0) + (overlap**2).sum(axis=(1, 2))
     t_dof = trace**2 / np.maximum(trace_of_square, 1e-300)

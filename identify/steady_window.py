@@ -25,10 +25,15 @@ MIN_SAMPLES = 8
 # ends stays within MAX_BATCHES squared trials.
 MIN_BATCH = 5
 MAX_BATCHES = 120
+# A pass that cuts less than this part of the record ends the search.
+SMALL_CUT = 0.1
+MAX_PASSES = 4
 # Tolerance of the carriage-speed plateau: part of its level, and multiples of the channel's own noise.
 PLATEAU_TOLERANCE = 0.01
 PLATEAU_NOISE = 4.0
 MOVING_SHARE = 0.5
+# The speed is judged on means of about n/PLATEAU_BLOCKS samples, which quiets the channel.
+PLATEAU_BLOCKS = 300
 
 
 @dataclass(frozen=True)
@@ -114,7 +119,8 @@ def steady_window(
     start, stop : float, optional
         Times in s: the window itself with ``key-times``, else the limits of the search.
     speed : ndarray, shape (n,), optional
-        Carriage speed: acceleration and stop phases are cut before the search.
+        Carriage speed: acceleration and stop phases are cut before the search. Needed where the record also
+        holds the model at rest, which is as steady as the run.
 
     Returns
     -------
@@ -182,7 +188,8 @@ def transient_ends(channels: np.ndarray) -> tuple[int, int]:
     """Rows between which a record is steady, by the marginal standard error rule at both ends.
 
     Minimises the sum over channels of SSE/(batches kept)^2, each channel scaled by its scatter, over all pairs
-    of begin (first half) and end (second half). At least half of the batches are kept.
+    of begin (first half) and end (second half); at least half of the batches are kept. When much was cut, the
+    rest is searched again: a long transient hides a shorter one from the first pass.
 
     Parameters
     ----------
@@ -202,6 +209,20 @@ def transient_ends(channels: np.ndarray) -> tuple[int, int]:
     _require_samples(n, "in the record")
     if not np.isfinite(channels).all():
         raise FitError("a channel holds values that are not finite", cure="fill or cut the gaps first")
+    first, last = 0, n
+    for _ in range(MAX_PASSES):
+        begin, end = _marginal_ends(channels[first:last])
+        cut = last - first - (end - begin)
+        if end - begin < MIN_SAMPLES or cut == 0:
+            break
+        first, last = first + begin, first + end
+        if cut < SMALL_CUT * n:
+            break
+    return first, last
+
+
+def _marginal_ends(channels: np.ndarray) -> tuple[int, int]:
+    n = channels.shape[0]
     batch = max(min(MIN_BATCH, n // MIN_SAMPLES), math.ceil(n / MAX_BATCHES))
     count = n // batch
     # The remainder stays with the last batch's end, so that no row is lost when nothing is cut.
@@ -216,7 +237,7 @@ def transient_ends(channels: np.ndarray) -> tuple[int, int]:
     totals = np.vstack([np.zeros(z.shape[1]), np.cumsum(z, axis=0)])
     squares = np.concatenate([[0.0], np.cumsum((z**2).sum(axis=1))])
     half = count // 2
-    begins, ends = np.arange(half // 2 + 1 if count < 16 else half + 1), np.arange(half, count + 1)
+    begins, ends = np.arange(half + 1), np.arange(half, count + 1)
     kept = ends[None, :] - begins[:, None]
     sums = totals[ends][None, :, :] - totals[begins][:, None, :]
     allowed = kept >= max(count - half, 2)
@@ -248,25 +269,24 @@ def speed_plateau(speed: np.ndarray) -> tuple[int, int]:
     """
     if not np.isfinite(speed).all():
         raise FitError("the carriage speed holds values that are not finite", cure="fill or cut the gaps")
-    size = np.abs(speed)
+    n = speed.size
+    block = max(n // PLATEAU_BLOCKS, 1)
+    size = np.abs(speed[: n - n % block].reshape(-1, block).mean(axis=1))
     # A high quantile rather than the maximum: a spike must not decide what counts as moving.
     top = float(np.quantile(size, 0.98))
     if top <= 0.0:
         raise FitError("the carriage does not move", cure="check the speed channel")
     level = float(np.median(size[size > MOVING_SHARE * top]))
     noise = 1.4826 * float(np.median(np.abs(np.diff(size)))) / math.sqrt(2.0)
-    width = max(size.size // 200, 1)
-    if width > 1:
-        padded = np.pad(size, (width // 2, width - 1 - width // 2), mode="edge")
-        size = np.convolve(padded, np.full(width, 1.0 / width), mode="valid")
-    tolerance = max(PLATEAU_TOLERANCE * level, PLATEAU_NOISE * noise / math.sqrt(width))
+    tolerance = max(PLATEAU_TOLERANCE * level, PLATEAU_NOISE * noise)
     inside = np.concatenate([[False], np.abs(size - level) <= tolerance, [False]])
     changes = np.flatnonzero(np.diff(inside.astype(np.int8)))
     begins, ends = changes[::2], changes[1::2]
     if begins.size == 0:
         raise FitError("the carriage never keeps its speed", cure="check the speed channel, or give key times")
     longest = int(np.argmax(ends - begins))
-    return int(begins[longest]), int(ends[longest])
+    first, last = int(begins[longest]), int(ends[longest])
+    return first * block, n if last == size.size else last * block
 
 
 def stationarity(

@@ -45,9 +45,11 @@ def audit_channels(
     for name, values in channels.items():
         if name == "time":
             continue
-        if name not in FORCES and name not in lively:
+        if name not in FORCES:
             if not math.isfinite(float(np.dot(values, values))):
                 found.append(_missing(name, values, time))
+            elif name in lively and values[0] == values[len(values) // 3] and (values == values[0]).all():
+                dead.append(name)
             continue
         # argmin and argmax are several times faster than min and max, and stop at NaN as well
         lowest, highest = int(values.argmin()), int(values.argmax())
@@ -56,13 +58,10 @@ def audit_channels(
             found.append(_missing(name, values, time))
         elif low == high:
             dead.append(name)
-        elif name in FORCES:
+        else:
             alive.append(name)
-            for limit, first, again in (
-                (high, highest, values[highest + 1 :].argmax if highest + 1 < len(values) else None),
-                (low, lowest, values[lowest + 1 :].argmin if lowest + 1 < len(values) else None),
-            ):
-                if again is not None and values[first + 1 + again()] == limit:
+            for limit, later in ((high, values[highest + 1 :]), (low, values[lowest + 1 :])):
+                if later.size and later[later.argmax() if limit == high else later.argmin()] == limit:
                     found += _flat_top(name, values, limit, high - low)
             found += _spikes(name, values, time, high - low)
     found += _dead_channels(channels, dead, alive, harmonic, lively)
@@ -183,22 +182,23 @@ def audit_steadiness(channels: Mapping[str, np.ndarray], rows: slice) -> list[Fi
     if not names or length < 2:
         return []
     used = slice(rows.start, rows.start + length * _BLOCKS * _PARTS)
-    parts = np.stack([channels[name][used].reshape(_BLOCKS, _PARTS, length).mean(axis=2) for name in names])
-    means = parts.mean(axis=2)
-    error = np.sqrt(np.median(parts.var(axis=2, ddof=1), axis=1) / _PARTS)
-    size = float(np.median(np.sqrt((means**2).sum(axis=0))))
-    allowed = np.maximum(_SETTLED * size, 4.0 * error)[:, None]
-    spread = np.maximum(np.maximum(means[:, :-2], means[:, 1:-1]), means[:, 2:]) - np.minimum(
-        np.minimum(means[:, :-2], means[:, 1:-1]), means[:, 2:]
+    parts = np.array([np.add.reduce(channels[name][used].reshape(-1, length), axis=1) for name in names]) / length
+    parts = parts.reshape(len(names), _BLOCKS, _PARTS)
+    means = np.add.reduce(parts, axis=2) / _PARTS
+    size = sorted(math.hypot(*block) for block in means.T.tolist())[_BLOCKS // 2]
+    spread = np.array(
+        [[max(row[i : i + 3]) - min(row[i : i + 3]) for i in range(_BLOCKS - 2)] for row in means.tolist()]
     )
-    if ((spread <= allowed).all(axis=0)).any():
+    if (spread <= _SETTLED * size).all(axis=0).any():
+        return []
+    error = np.sqrt(np.median(parts.var(axis=2, ddof=1), axis=1) / _PARTS)
+    allowed = np.maximum(_SETTLED * size, 4.0 * error)[:, None]
+    if (spread <= allowed).all(axis=0).any():
         return []
     worst = int(np.argmax((spread / allowed).max(axis=1)))
     first, last = float(means[worst, 0]), float(means[worst, -1])
-    return [
-        finding(
-            "transient-only",
-            f"{names[worst]} keeps changing through the run, from {first:.4g} N in its first eighth to {last:.4g} N in "
-            "its last; no part of it is steady",
-        )
-    ]
+    text = (
+        f"{names[worst]} keeps changing through the run, from {first:.4g} N in its first eighth to {last:.4g} N "
+        "in its last; no part of it is steady"
+    )
+    return [finding("transient-only", text)]

@@ -70,7 +70,7 @@ def _swapped_forces(seen: RecordedHarmonics, run: Run) -> list[Finding]:
     if run.kind not in ("pure_sway", "pure_yaw", "dry_sway") or "X" not in seen or "Y" not in seen:
         return []
     x, y = abs(seen.first["X"]), abs(seen.first["Y"])
-    if x <= 5.0 * y or x <= 2.0 * abs(seen.second["X"]):
+    if x <= 5.0 * y or x <= 2.0 * seen.second("X"):
         return []
     text = f"X oscillates at the frequency of the motion ({x:.4g} N) and Y hardly does ({y:.4g} N)"
     return [finding("swapped-channels", text, place="channels X, Y")]

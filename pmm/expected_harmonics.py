@@ -74,23 +74,28 @@ def expected_motion(run: Run, reference: float = 0.0) -> ExpectedMotion:
     # y_a sin(wt + e) is -i y_a exp(ie) in this form, psi_a cos(wt + e) is psi_a exp(ie)
     y = -1j * run.sway_amplitude * cmath.exp(1j * run.sway_phase)
     x = -1j * run.surge_amplitude
-    if run.kind in ("pure_yaw", "yaw_drift") or run.yaw_amplitude:
+    cosine, sine = math.cos(run.drift_angle), math.sin(run.drift_angle)
+    if run.kind in ("pure_yaw", "yaw_drift"):
+        # The heading follows the path but for the drift angle, so the velocity keeps its direction in the ship.
         along, across = speed + _wave(1j * w * x), _wave(1j * w * y)
-        if run.yaw_amplitude and run.kind == "sway_yaw":
-            heading = run.drift_angle + _wave(run.yaw_amplitude * cmath.exp(1j * run.yaw_phase))
-        else:
-            heading = run.drift_angle + np.arctan2(across, along)
+        (_, *psi), (pace, *change) = (
+            np.array([np.arctan2(across, along), np.hypot(along, across)]) @ _PROJECTION
+        ).tolist()
+        surge, sway = pace * cosine, -pace * sine
+        psi1, u1, v1 = complex(*psi), complex(*change) * cosine, -complex(*change) * sine
+    elif run.yaw_amplitude:
+        along, across = speed + _wave(1j * w * x), _wave(1j * w * y)
+        heading = run.drift_angle + _wave(run.yaw_amplitude * cmath.exp(1j * run.yaw_phase))
         cos, sin = np.cos(heading), np.sin(heading)
         series = np.array([heading, along * cos + across * sin, across * cos - along * sin])
         (_, *psi), (surge, *u), (sway, *v) = (series @ _PROJECTION).tolist()
         psi1, u1, v1 = complex(*psi), complex(*u), complex(*v)
     else:
-        cosine, sine = math.cos(run.drift_angle), math.sin(run.drift_angle)
         surge, sway = speed * cosine, -speed * sine
         psi1, u1, v1 = 0j, 1j * w * (x * cosine + y * sine), 1j * w * (y * cosine - x * sine)
     r1 = 1j * w * psi1
     v1 -= reference * r1
-    pace = _SMALL * max(speed, w * abs(y), w * abs(x))
+    slow = _SMALL * max(speed, w * abs(y), w * abs(x))
     turn = 2e-3
     return ExpectedMotion(
         first={
@@ -111,11 +116,11 @@ def expected_motion(run: Run, reference: float = 0.0) -> ExpectedMotion:
             "x": 0.0,
             "y": 0.0,
             "psi": turn,
-            "u": pace,
-            "v": pace,
+            "u": slow,
+            "v": slow,
             "r": turn * w,
-            "udot": pace * w,
-            "vdot": pace * w,
+            "udot": slow * w,
+            "vdot": slow * w,
             "rdot": turn * w * w,
         },
         telling=_TELLING.get(run.kind, ("y", "psi", "r", "v", "Y")),

@@ -155,7 +155,7 @@ def planned_rows(run: Run, terms: Sequence[Term], plan: RowNoise) -> PlannedRows
     order = plan.harmonics if run.harmonic else 0
     projector = HarmonicProjector(used, run.frequency, order) if order else None
     span = Window(float(used[0]), 1.0 / laboratory.sampling_rate, len(used))
-    columns = project_terms(motion, span, order, terms, plan.ship, plan.velocity_scale, projector, at)
+    columns = project_terms(motion, span, order, terms, plan.ship, plan.velocity_scale, projector)
     places = {
         name: np.array([i for i, term in enumerate(terms) if term.component == name], dtype=int)
         for name in FORCES

@@ -1,4 +1,4 @@
-"""Means and first two harmonics of all channels of a run at once, from a thinned window: quick, for the audit."""
+"""Mean and first harmonic of all channels of a run at once, from a thinned window: quick, for the audit."""
 
 from __future__ import annotations
 
@@ -16,34 +16,50 @@ _MOST_CYCLES = 12
 _BEGIN, _END = 0.45, 0.96
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class RecordedHarmonics:
-    """Least-squares mean and harmonics of the channels of a run.
+    """Least-squares mean and first harmonic of the channels of a run.
 
     Attributes
     ----------
-    first, second : mapping of str to complex
-        ``a - i b`` of ``a cos kwt + b sin kwt``.
-    mean : mapping of str to float
-    length : float
-        Length of the window in s.
+    first : dict of str to complex
+        ``a - i b`` of ``a cos wt + b sin wt``.
+    mean : dict of str to float
+    time : ndarray, shape (m,)
+        Times of the window in s.
+    basis : ndarray, shape (3, m)
+        1, cos wt, sin wt.
+    values : ndarray, shape (k, m)
+        The channels in the order of `first`; ``x`` without its trend.
     """
 
-    first: Mapping[str, complex]
-    second: Mapping[str, complex]
-    mean: Mapping[str, float]
-    length: float
-    _rows: Mapping[str, int]
-    _time: np.ndarray
-    _basis: np.ndarray
-    _values: np.ndarray
-    _coefficients: np.ndarray
+    first: dict[str, complex]
+    mean: dict[str, float]
+    time: np.ndarray
+    basis: np.ndarray
+    values: np.ndarray
 
     def __contains__(self, name: str) -> bool:
         return name in self.first
 
+    @property
+    def length(self) -> float:
+        """Length of the window in s."""
+        return float(self.time[-1] - self.time[0])
+
+    def channel(self, name: str) -> np.ndarray:
+        """Values of a channel in the window."""
+        return self.values[list(self.first).index(name)]
+
+    def second(self, name: str) -> float:
+        """Amplitude of the second harmonic of a channel, by projection."""
+        cos, sin = self.basis[1], self.basis[2]
+        values = self.channel(name) - self.mean[name]
+        both = values @ (cos * cos - sin * sin), values @ (2.0 * sin * cos)
+        return 2.0 / len(values) * math.hypot(*both)
+
     def fit_quality(self, name: str) -> tuple[float, float]:
-        """Share of the variance that the harmonics explain, and by how much the frequency is off.
+        """Share of the variance that the harmonic explains, and by how much the frequency is off.
 
         Returns
         -------
@@ -51,22 +67,20 @@ class RecordedHarmonics:
             1 for a constant channel.
         slip : float
             Correction of the frequency in rad/s: one Gauss-Newton step on the phase along the window; 0 where the
-            harmonics leave too little for a slip that matters.
+            harmonic leaves too little for a slip that matters.
         """
-        row = self._rows[name]
-        values, coefficients = self._values[row], self._coefficients[row]
-        constant = len(values) * float(values.mean()) ** 2
-        total = float(values @ values) - constant
-        if total <= 1e-12 * constant:
+        values, first, mean = self.channel(name), self.first[name], self.mean[name]
+        about = values - mean
+        total = float(about @ about)
+        if total <= 1e-12 * len(values) * mean**2:
             return 1.0, 0.0
-        rest = values - coefficients @ self._basis
+        rest = about - first.real * self.basis[1] + first.imag * self.basis[2]
         explained = 1.0 - float(rest @ rest) / total
         # A phase that is lost evenly, up to e at the ends, leaves e^2/3 of the variance.
         if explained > 0.999:
             return explained, 0.0
-        slope = self.first[name]
-        since = self._time - 0.5 * (self._time[0] + self._time[-1])
-        turning = since * (-slope.real * self._basis[2] - slope.imag * self._basis[1])
+        since = self.time - 0.5 * (self.time[0] + self.time[-1])
+        turning = since * (-first.real * self.basis[2] - first.imag * self.basis[1])
         return explained, float(rest @ turning) / float(turning @ turning)
 
 
@@ -87,25 +101,29 @@ def recorded_harmonics(channels: Mapping[str, np.ndarray], time: np.ndarray, run
         return None
     t = time[rows]
     angle = run.frequency * t
-    cos, sin = np.cos(angle), np.sin(angle)
-    basis = np.array([np.ones(len(t)), cos, sin, cos * cos - sin * sin, 2.0 * sin * cos])
+    basis = np.ones((3, len(t)))
+    np.cos(angle, out=basis[1])
+    np.sin(angle, out=basis[2])
     values = np.array([channels[name][rows] for name in names])
     if "x" in names:
         values[names.index("x")] -= run.speed * t
-    # Sines and cosines over whole cycles are nearly orthogonal: the inverse is as good as a solution, and faster.
-    coefficients = values @ (np.linalg.inv(basis @ basis.T) @ basis).T
-    table = coefficients.tolist()
+    table = (values @ basis.T @ _inverse((basis @ basis.T).tolist())).tolist()
     return RecordedHarmonics(
-        first={name: complex(row[1], -row[2]) for name, row in zip(names, table)},
-        second={name: complex(row[3], -row[4]) for name, row in zip(names, table)},
+        first={name: complex(a, -b) for name, (_, a, b) in zip(names, table)},
         mean={name: row[0] for name, row in zip(names, table)},
-        length=float(t[-1] - t[0]),
-        _rows={name: row for row, name in enumerate(names)},
-        _time=t,
-        _basis=basis,
-        _values=values,
-        _coefficients=coefficients,
+        time=t,
+        basis=basis,
+        values=values,
     )
+
+
+def _inverse(m: list[list[float]]) -> np.ndarray:
+    """Inverse of a symmetric 3 by 3 matrix; written out because the general routine costs as much as the rest."""
+    (a, b, c), (_, d, e), (_, _, f) = m
+    p, q, s = d * f - e * e, c * e - b * f, b * e - c * d
+    determinant = a * p + b * q + c * s
+    inverse = np.array([[p, q, s], [q, a * f - c * c, b * c - a * e], [s, b * c - a * e, a * d - b * b]])
+    return inverse / determinant
 
 
 def _whole_cycles(time: np.ndarray, period: float) -> slice | None:

@@ -63,6 +63,15 @@ def test_same_headings_but_decimal_comma_are_sniffed_again(read):
     assert table.columns["Fx"].tolist() == [1.5, 2.5]
 
 
+def test_decimal_comma_in_a_line_that_is_not_looked_at(read):
+    rows = [f"{n}\t{n}" for n in range(5000)]
+    rows[700] = "700\t0,5"
+    assert read("t\tFx\n" + "\n".join(rows)).columns["Fx"][700] == 0.5
+    rows[800] = "800\t0.5"
+    with pytest.raises(ReadError, match=r"line 702, column Fx: '0,5' is not a number"):
+        read("t\tFx\n" + "\n".join(rows))
+
+
 def test_fault_is_reported_also_with_a_dialect(read):
     dialect = read("t;Fx\n0;1\n1;2\n").dialect
     with pytest.raises(ReadError, match=r"line 3, column Fx: 'x' is not a number"):

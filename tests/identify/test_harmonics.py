@@ -7,6 +7,7 @@ import pytest
 
 from towtank.core.errors import FitError
 from towtank.identify.harmonics import fit_harmonics, harmonic_basis, in_out_of_phase, whole_cycle_window
+from towtank.identify.steady_window import steady_window
 
 Noise = Callable[..., np.ndarray]
 OMEGA = 2.0 * np.pi / 15.0
@@ -119,6 +120,15 @@ def test_found_frequency_widens_the_errors(ar1: Noise) -> None:
     # The sine coefficient of a cosine takes the whole error of the frequency.
     assert np.mean(inside, axis=0).min() >= 0.88
     assert fit.se[2] > 1.3 * fit_harmonics(t, signal + column, omega=omega, order=1).se[2]
+
+
+def test_published_heave_of_an_open_run_in_waves(squat_run) -> None:
+    run = squat_run("CW3")
+    window = steady_window(run["time"], run["heave"], speed=run["u"]).slice
+    fit = fit_harmonics(run["time"][window], run["heave"][window], order=2)
+    assert fit.omega == pytest.approx(7.05, abs=0.005)
+    assert fit.mean == pytest.approx(7.06, abs=0.02)
+    assert fit.amplitude[0] == pytest.approx(5.55, abs=0.03)
 
 
 def test_drift_is_fitted_beside_the_harmonics() -> None:

@@ -85,6 +85,19 @@ def test_speed_plateau_of_both_directions() -> None:
         assert T[last - 1] == pytest.approx(52.0, abs=0.3)
 
 
+@pytest.mark.parametrize("with_speed", [True, False])
+@pytest.mark.parametrize(
+    ("name", "bow", "stern", "tolerance"), [("C1", 0.88, 0.58, 0.01), ("C2", 8.34, 5.01, 0.05)]
+)
+def test_published_squat_of_open_runs(squat_run, name, bow, stern, tolerance, with_speed: bool) -> None:
+    # The published means themselves move by 0.1 mm with the window at the higher speed.
+    run = squat_run(name)
+    sinkage = np.column_stack([run["z_VF"], run["z_VA"]])
+    choice = steady_window(run["time"], sinkage, speed=run["u"] if with_speed else None)
+    assert choice.is_stationary
+    np.testing.assert_allclose(sinkage[choice.slice].mean(axis=0), [bow, stern], atol=tolerance)
+
+
 def test_slow_noise_is_not_called_drift(ar1: Noise) -> None:
     alarms = [not is_stationary(T, 10.0 + ar1(np.random.default_rng(s), 0.95, N, 2)) for s in range(100)]
     assert np.mean(alarms) <= 0.05

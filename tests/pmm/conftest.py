@@ -43,8 +43,8 @@ def hull() -> DerivativeSet:
 def reduced() -> MakeRuns:
     """Synthesise forces of a set on the exact motion of each run, and reduce the records.
 
-    ``reduced(derivatives, runs, noise=0.0, seed=0, cycles=3, samples=240, reference=0.0, **reduction)``: white noise
-    in parts of the largest force of each channel; `samples` a cycle, and for a steady run.
+    ``reduced(derivatives, runs, noise=0.0, seed=0, cycles=3, samples=240, reference=0.0, **reduction)``: white
+    noise in parts of the largest force of each channel; `samples` a cycle, and for a steady run.
     """
 
     def make(

@@ -95,7 +95,7 @@ def test_pure_yaw_amplitude_is_the_printed_one(reduced, hull) -> None:
     motion = sinusoid_motion(result)
     assert motion.velocity == "r"
     assert motion.amplitude == pytest.approx(0.30, rel=1e-12)
-    # y = y_a sin(w t) turns the bow to starboard while y'' < 0 ... r = -r_max sin(w t) = r_max cos(w t + 90 deg)
+    # psi = atan(eps cos w t), so r = -r_max sin w t = r_max cos(w t + 90 deg)
     assert motion.phase == pytest.approx(math.pi / 2, abs=1e-12)
 
 

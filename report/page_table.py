@@ -1,0 +1,83 @@
+"""Tables of a page: columns with a kind, cells as text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+from .typography import aligned, fixed, significant
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Kind = Literal["text", "number", "code"]
+
+
+@dataclass(frozen=True)
+class Column:
+    """Heading of a column and how its cells are set."""
+
+    title: str
+    kind: Kind = "text"
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table of a page.
+
+    Attributes
+    ----------
+    columns : tuple of Column
+    rows : tuple of tuple of str
+        Cells as they are printed; markup in them must be :class:`markupsafe.Markup`.
+    caption : str
+    marks : tuple of str
+        Class of each row; empty for none.
+    """
+
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[str, ...], ...]
+    caption: str = ""
+    marks: tuple[str, ...] = field(default=())
+
+    @property
+    def marked_rows(self) -> list[tuple[str, tuple[str, ...]]]:
+        """Rows with their marks."""
+        marks = self.marks or ("",) * len(self.rows)
+        return list(zip(marks, self.rows, strict=True))
+
+
+def make_table(
+    columns: Sequence[Column], rows: Iterable[Sequence[str]], caption: str = "", marks: Sequence[str] = ()
+) -> Table:
+    """Table whose number columns are aligned at the decimal point."""
+    filled = [list(row) for row in rows]
+    for index, column in enumerate(columns):
+        if column.kind == "number":
+            for row, cell in zip(filled, aligned([row[index] for row in filled]), strict=True):
+                row[index] = cell
+    return Table(tuple(columns), tuple(tuple(row) for row in filled), caption, tuple(marks))
+
+
+def frame_table(frame: pd.DataFrame, caption: str = "", titles: dict[str, str] | None = None) -> Table:
+    """Table of a DataFrame: floats with four significant digits, integers plain, everything else as text."""
+    titles = titles or {}
+    columns = []
+    cells: list[list[str]] = []
+    for name in frame.columns:
+        values = frame[name]
+        is_float = values.dtype.kind == "f"
+        number = values.dtype.kind in "fiu"
+        columns.append(Column(titles.get(str(name), str(name)), "number" if number else "text"))
+        cells.append([_cell(value, is_float) for value in values.tolist()])
+    return make_table(columns, zip(*cells, strict=True) if cells else [], caption)
+
+
+def _cell(value: Any, is_float: bool) -> str:
+    if is_float:
+        return significant(float(value), 4)
+    if value is None:
+        return "–"
+    return fixed(value, 0) if isinstance(value, int) and not isinstance(value, bool) else str(value)

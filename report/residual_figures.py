@@ -1,0 +1,117 @@
+"""Residuals of a fit run by run, and measured against fitted values."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..pmm.component_fit import ComponentFit
+from ..pmm.hull_fit import HullFit
+from .figure_style import BLUE, COMPONENT_COLOURS, CYCLE, INK, MARKERS, MUTED, new_axes, small_legend
+from .force_curves import harmonic_name, interval_factor
+from .force_figures import FORCE_NAMES, finite
+
+_BANDS = (("mean", 0, 0), ("1st harmonic", 1, 2), ("2nd harmonic", 3, 4), ("higher", 5, 10_000))
+
+OUTLYING = 4.0
+"""Standardised residual from which a run is named in the figure."""
+
+
+def standardised_residuals(result: ComponentFit) -> np.ndarray:
+    """Residuals over the standard deviation of their rows, shape (n,); 0 where that is unknown."""
+    sd = result.row_sd
+    known = np.isfinite(sd) & (sd > 0)
+    return np.divide(result.residual, sd, out=np.zeros(len(sd)), where=known)
+
+
+def residuals_by_run(fit: HullFit, component: str, *, ax: Axes | None = None) -> Axes:
+    """Standardised residuals of one component over the number of the run.
+
+    Parameters
+    ----------
+    fit : HullFit
+    component : {"X", "Y", "N", "K"}
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+        Band of plus and minus 2 standard deviations; runs beyond 4 carry their names.
+    """
+    ax = ax if ax is not None else new_axes()
+    result = fit.components[component]
+    rows, size = result.rows, standardised_residuals(result)
+    ax.axhspan(-2, 2, color=BLUE, alpha=0.08, linewidth=0)
+    ax.axhline(0.0, color=MUTED, linewidth=0.8)
+    several = len(np.unique(rows.harmonic)) > 1
+    for number, (name, low, high) in enumerate(_BANDS):
+        chosen = (rows.harmonic >= low) & (rows.harmonic <= high)
+        if chosen.any():
+            ax.plot(
+                rows.run[chosen] + 1,
+                size[chosen],
+                MARKERS[number],
+                color=CYCLE[number] if several else INK,
+                markersize=3.5,
+                alpha=0.85,
+                label=name if several else None,
+            )
+    for index in np.unique(rows.run[np.abs(size) > OUTLYING])[:4].tolist():
+        own = np.flatnonzero(rows.run == index)
+        worst = own[np.argmax(np.abs(size[own]))]
+        text = fit.runs[index].name
+        side = "right" if index > len(fit.runs) / 2 else "left"
+        ax.annotate(
+            text if len(text) < 24 else text[:22] + "…",
+            (index + 1, size[worst]),
+            xytext=(-5 if side == "right" else 5, 0),
+            textcoords="offset points",
+            ha=side,
+            va="center",
+            fontsize=7,
+            color=INK,
+        )
+    limit = max(3.0, 1.12 * float(np.abs(size).max(initial=0.0)))
+    ax.set_ylim(-limit, limit)
+    ax.set_xlim(0, len(fit.runs) + 1)
+    ax.set_xlabel("number of the run")
+    ax.set_ylabel(f"residual of {component} [standard deviations]")
+    if several:
+        small_legend(ax, loc="lower center", bbox_to_anchor=(0.5, 0.98), ncols=4, columnspacing=1.0, borderpad=0)
+    return ax
+
+
+def measured_against_fitted(fit: HullFit, component: str, *, ax: Axes | None = None) -> Axes:
+    """Measured means and harmonics of one component against the fitted ones, with the line of equality.
+
+    Parameters
+    ----------
+    fit : HullFit
+    component : {"X", "Y", "N", "K"}
+    ax : Axes, optional
+    """
+    ax = ax if ax is not None else new_axes()
+    result = fit.components[component]
+    rows = result.rows
+    fitted = rows.design @ result.params
+    both = np.concatenate([fitted, rows.response])
+    ends = np.array([both.min(), both.max()])
+    ax.plot(ends, ends, color=MUTED, linewidth=0.9)
+    half = interval_factor(np.inf) * finite(result.row_sd)
+    harmonics = np.unique(rows.harmonic)
+    for number, harmonic in enumerate(harmonics.tolist()):
+        chosen = rows.harmonic == harmonic
+        ax.errorbar(
+            fitted[chosen],
+            rows.response[chosen],
+            yerr=half[chosen],
+            fmt=MARKERS[number % len(MARKERS)],
+            color=CYCLE[number % len(CYCLE)] if len(harmonics) > 1 else COMPONENT_COLOURS[component],
+            markersize=3.5,
+            elinewidth=0.8,
+            label=harmonic_name(harmonic) if len(harmonics) > 1 else None,
+        )
+    ax.set_xlabel(f"fitted {FORCE_NAMES[component]} [-]")
+    ax.set_ylabel(f"measured {component}′ [-]")
+    small_legend(ax, loc="upper left", ncols=2, columnspacing=0.8)
+    return ax
