@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
+_CANCELLED = 1e-11
+"""A converted term is rounding, not a term, when it is this much smaller than what went into it."""
+
+
 @dataclass(frozen=True, eq=False)
 class DerivativeSet:
     """Hull derivatives: values, covariance, terms, conventions.
@@ -206,16 +210,14 @@ class DerivativeSet:
     def _not_rounding(self, matrix: np.ndarray, offset: np.ndarray, values: np.ndarray) -> np.ndarray:
         """False for terms that a conversion back has cancelled, so that round trips return the same terms."""
         size = np.abs(matrix) @ np.abs(self.values) + np.abs(offset)
-        spread = np.abs(matrix) @ self._known_errors()
-        cancelled_value = np.abs(values) <= 1e-13 * size
+        cancelled = (np.abs(values) <= _CANCELLED * size) & (size > 0)
         if self.covariance is None:
-            return ~(cancelled_value & (size > 0))
-        variance = np.einsum("ij,jk,ik->i", matrix, self.covariance, matrix)
-        cancelled_spread = np.sqrt(np.clip(variance, 0, None)) <= 1e-7 * spread
-        return ~(cancelled_value & cancelled_spread & (size > 0))
-
-    def _known_errors(self) -> np.ndarray:
-        return np.nan_to_num(self._standard_errors())
+            return ~cancelled
+        # A root of the covariance cancels as well as the values do; the variance would only to half the digits.
+        eigenvalues, vectors = np.linalg.eigh(self.covariance)
+        root = vectors * np.sqrt(np.clip(eigenvalues, 0.0, None))
+        sd = np.sqrt(((matrix @ root) ** 2).sum(axis=1))
+        return ~(cancelled & (sd <= _CANCELLED * (np.abs(matrix) @ self._standard_errors())))
 
     def at_scale(self, scale: float, *, rho: float | None = None) -> DerivativeSet:
         """The set for the geometrically similar ship at another scale (Froude similarity).
@@ -282,7 +284,8 @@ class DerivativeSet:
             return self.to("lt").forces(motion, approach_speed=approach_speed)
         if approach_speed is None:
             approach_speed = self.reference_speed
-        state, speed = scaled_state(motion, self.ship, self.conventions, approach_speed)
+        wanted = {variable for term in self.terms for variable in term.variables} | {"v"}
+        state, speed = scaled_state(motion, self.ship, self.conventions, approach_speed, only=wanted)
         forces: dict[str, np.ndarray] = {}
         for term, value in zip(self.terms, self.values, strict=True):
             part = value * term.column(state)

@@ -6,7 +6,8 @@ their forces.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
@@ -29,7 +30,12 @@ def origin_position(conventions: Conventions, ship: Ship) -> float:
 
 
 def scaled_state(
-    motion: Motion, ship: Ship, conventions: Conventions, approach_speed: float | np.ndarray | None = None
+    motion: Motion,
+    ship: Ship,
+    conventions: Conventions,
+    approach_speed: float | np.ndarray | None = None,
+    *,
+    only: Collection[str] | None = None,
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Variables of the terms, in the units and signs of `conventions`.
 
@@ -44,11 +50,13 @@ def scaled_state(
     conventions : Conventions
     approach_speed : float or ndarray, optional
         U0 in m/s: needed for terms in ``u`` and for ``velocity_scale = "approach"``.
+    only : collection of str, optional
+        Variables that are wanted; all that the motion gives when None.
 
     Returns
     -------
     state : dict of str to ndarray
-        Scaled variables; ``beta`` is always there.
+        Scaled variables.
     speed : ndarray
         The speed in m/s that scales the forces.
     """
@@ -58,14 +66,14 @@ def scaled_state(
             cure="convert the set to LT or L2 first",
         )
     x = {name: np.asarray(value, dtype=float) for name, value in motion.items() if name in VARIABLES}
-    surge, v, r = x["surge"], x.get("v", np.zeros(())), x.get("r", np.zeros(()))
-    lever = origin_position(conventions, ship) * ship.L
-    x["surge"], x["r"] = surge, r
-    x["v"] = v + lever * r
+    surge = x["surge"]
+    x.setdefault("r", np.zeros(()))
+    x["v"] = _at_origin(x.get("v", np.zeros(())), x["r"], conventions, ship)
     if "vdot" in x and "rdot" in x:
-        x["vdot"] = x["vdot"] + lever * x["rdot"]
-    drift = np.arctan2(-x["v"], surge)
-    x["beta"] = drift if conventions.drift_sign == "-v" else -drift
+        x["vdot"] = _at_origin(x["vdot"], x["rdot"], conventions, ship)
+    if only is None or "beta" in only:
+        drift = np.arctan2(-x["v"], surge)
+        x["beta"] = drift if conventions.drift_sign == "-v" else -drift
     if approach_speed is not None:
         x["u"] = surge - np.asarray(approach_speed, dtype=float)
     if conventions.velocity_scale == "approach":
@@ -73,22 +81,30 @@ def scaled_state(
             raise ConventionError("the approach speed is needed", cure="give the carriage speed of the run")
         speed = np.broadcast_to(np.asarray(approach_speed, dtype=float), np.shape(x["v"]))
     else:
-        speed = np.hypot(surge, x["v"])
-    if conventions.axes == "forward-port-up":
-        for name in ("v", "r", "vdot", "rdot"):
-            if name in x:
-                x[name] = -x[name]
-    if conventions.rudder_sign == "port" and "delta" in x:
-        x["delta"] = -x["delta"]
-    if conventions.angle_unit == "deg":
-        for name in ("beta", "phi", "delta"):
-            if name in x:
-                x[name] = np.degrees(x[name])
-    for name in x:
-        x[name] = x[name] / (
-            variable_unit(name, conventions.force_scaling, ship, 1.0) * speed ** VARIABLES[name].speed
-        )
+        speed = np.sqrt(surge * surge + x["v"] * x["v"])
+    if only is not None:
+        x = {name: value for name, value in x.items() if name in only}
+    square = speed * speed
+    for name, value in x.items():
+        kind = VARIABLES[name]
+        unit = 1.0 / variable_unit(name, conventions.force_scaling, ship, 1.0)
+        if conventions.axes == "forward-port-up" and name in ("v", "r", "vdot", "rdot"):
+            unit = -unit
+        if conventions.rudder_sign == "port" and name == "delta":
+            unit = -unit
+        if conventions.angle_unit == "deg" and kind.angle:
+            unit *= 180.0 / math.pi
+        scaled = value * unit
+        if kind.speed:
+            scaled = scaled / (speed if kind.speed == 1 else square)
+        x[name] = scaled
     return x, speed
+
+
+def _at_origin(lateral: np.ndarray, turning: np.ndarray, conventions: Conventions, ship: Ship) -> np.ndarray:
+    """Lateral velocity or acceleration of the convention's origin from that of midship."""
+    lever = origin_position(conventions, ship) * ship.L
+    return lateral + lever * turning if lever else lateral
 
 
 def force_units(component: str, ship: Ship, conventions: Conventions, speed: np.ndarray | float) -> np.ndarray:

@@ -171,8 +171,9 @@ class Term:
                 magnitude = np.abs(x)
                 for _ in range(factor.modulus):
                     value = value * magnitude
-        shape = np.broadcast_shapes(*(np.shape(x) for x in state.values())) if state else ()
-        return np.broadcast_to(np.asarray(value, dtype=float), shape)
+        if np.ndim(value) == 0 and state:
+            return np.full(np.broadcast_shapes(*(np.shape(x) for x in state.values())), float(value))
+        return np.asarray(value, dtype=float)
 
 
 def parse_terms(names: Iterable[str | Term]) -> tuple[Term, ...]:

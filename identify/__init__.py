@@ -7,7 +7,9 @@
 ``harmonic_projection``       harmonic basis, factorised once for many channels
 ``frequency``                 frequency of a motion by variable projection
 ``harmonics``                 mean and harmonics over whole or broken cycles, phases against the motion
-``regression``                least squares with model, HAC, clustered or HC3 covariance; diagnostics
+``regression``                least squares with model, HAC, clustered or HC3 covariance
+``linear_fit``                its result: statistics, influence of rows and runs, prediction
+``normal_equations``          the same over many runs without keeping their rows
 ``robust``                    Huber
 ``ridge``                     ridge and truncated singular values, chosen by left-out rows or runs
 ``constrained``               signs, bounds, equalities, prior
@@ -61,7 +63,9 @@ _HOMES = {
         "whole_cycle_window",
     ),
     "model_selection": ("LeftOutScore", "compare_models", "left_out_runs", "range_sensitivity"),
-    "regression": ("LinearFit", "NormalEquations", "StackedFit", "fit_linear", "fit_stacked"),
+    "linear_fit": ("LinearFit",),
+    "normal_equations": ("NormalEquations", "StackedFit", "fit_stacked"),
+    "regression": ("fit_linear",),
     "ridge": ("RidgeFit", "fit_ridge", "fit_truncated_svd"),
     "robust": ("RobustFit", "fit_huber"),
     "shared_bias": (

@@ -13,7 +13,8 @@ from functools import cached_property
 import numpy as np
 
 from ..core.errors import FitError
-from .regression import LinearFit, fit_linear
+from .linear_fit import LinearFit
+from .regression import fit_linear
 
 # Part of the replicates that may lack the runs which separate the terms.
 MAX_SINGULAR_SHARE = 0.1

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.errors import FitError
-from .regression import LinearFit, fit_linear
-from .sandwich import FULL_LEVERAGE
+from .linear_fit import LinearFit
+from .regression import fit_linear
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -53,17 +53,16 @@ def left_out_runs(fit: LinearFit) -> LeftOutScore:
     """
     import pandas as pd
 
-    geometry = fit.geometry
-    alone = (geometry.leverage >= FULL_LEVERAGE).any(axis=1)
-    totals = np.bincount(geometry.codes, fit.deleted_residuals**2, geometry.sizes.size)
-    size = np.where(alone, np.inf, np.sqrt(totals / geometry.sizes))
-    series = pd.Series(size, index=pd.Index(geometry.labels, name="group"), name="rmse")
+    labels = np.arange(fit.n) if fit.groups is None else fit.geometry.labels
+    alone = fit.determined_alone
+    size = np.where(alone, np.inf, fit.group_rms(fit.deleted_residuals))
+    series = pd.Series(size, index=pd.Index(labels, name="group"), name="rmse")
     w = np.ones(fit.n) if fit.weights is None else fit.weights
     centre = float(w @ fit.response) / float(w.sum()) if fit.has_intercept else 0.0
     spread = float(w @ (fit.response - centre) ** 2)
-    press = math.inf if alone.any() else float(totals.sum())
+    press = math.inf if alone.any() else float(fit.deleted_residuals @ fit.deleted_residuals)
     q2 = 1.0 - press / spread if spread > 0.0 else math.nan
-    return LeftOutScore(math.sqrt(press / fit.n), q2, series, list(geometry.labels[alone]))
+    return LeftOutScore(math.sqrt(press / fit.n), q2, series, list(labels[alone]))
 
 
 def compare_models(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .regression import LinearFit
+    from .linear_fit import LinearFit
 
 
 def summary_text(fit: LinearFit) -> str:

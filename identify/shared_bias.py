@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 
 from ..core.errors import FitError
-from .regression import LinearFit
+from .linear_fit import LinearFit
 
 Distribution = Literal["normal", "uniform", "triangular"]
 Perturbation = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]

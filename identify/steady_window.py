@@ -32,6 +32,7 @@ MAX_PASSES = 4
 PLATEAU_TOLERANCE = 0.01
 PLATEAU_NOISE = 4.0
 MOVING_SHARE = 0.5
+LEVEL_NEIGHBOURHOOD = 0.05
 # The speed is judged on means of about n/PLATEAU_BLOCKS samples, which quiets the channel.
 PLATEAU_BLOCKS = 300
 
@@ -277,6 +278,10 @@ def speed_plateau(speed: np.ndarray) -> tuple[int, int]:
     if top <= 0.0:
         raise FitError("the carriage does not move", cure="check the speed channel")
     level = float(np.median(size[size > MOVING_SHARE * top]))
+    for _ in range(3):
+        # The ramps pull the median; the neighbourhood of the level does not hold them.
+        near = size[np.abs(size - level) <= LEVEL_NEIGHBOURHOOD * level]
+        level = float(np.median(near)) if near.size else level
     noise = 1.4826 * float(np.median(np.abs(np.diff(size)))) / math.sqrt(2.0)
     tolerance = max(PLATEAU_TOLERANCE * level, PLATEAU_NOISE * noise)
     inside = np.concatenate([[False], np.abs(size - level) <= tolerance, [False]])

@@ -4,23 +4,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from itertools import pairwise
 
 import numpy as np
 
-from ..core.findings import Finding
+from ..core.findings import Finding, Severity
 from ..core.terms import COMPONENTS as FORCES
 from .audit_rules import finding
 
 _SPIKE = 12.0
 """Steps between samples beyond this many robust standard deviations are spikes."""
 
-_BLOCKS, _PARTS = 8, 4
-_SETTLED = 0.05
-"""Change between blocks, relative to the force, that counts as settled."""
+_BLOCKS = 8
+_CHANGES, _NEVER_SETTLES = 0.15, 0.50
+_ROUNDING = 1e-9
 
 
 def audit_channels(
-    channels: Mapping[str, np.ndarray], time: np.ndarray, *, harmonic: bool, lively: frozenset[str]
+    channels: Mapping[str, np.ndarray],
+    time: np.ndarray,
+    rows: slice,
+    *,
+    lively: frozenset[str] = frozenset(),
+    force_unit: float = 0.0,
 ) -> list[Finding]:
     """Findings about single channels of one run.
 
@@ -30,10 +36,12 @@ def audit_channels(
         In SI.
     time : ndarray, shape (n,)
         In s.
-    harmonic : bool
-        True for an oscillating run.
+    rows : slice
+        Samples at speed: what the forces do at rest does not matter.
     lively : frozenset of str
-        Channels that this run must move.
+        Channels that this run must oscillate.
+    force_unit : float
+        Size of a force in N below which, times 1e-9, only rounding is seen.
 
     Returns
     -------
@@ -41,7 +49,7 @@ def audit_channels(
     """
     found: list[Finding] = []
     dead: list[str] = []
-    alive: list[str] = []
+    ranges: dict[str, tuple[float, float]] = {}
     for name, values in channels.items():
         if name == "time":
             continue
@@ -52,19 +60,20 @@ def audit_channels(
                 dead.append(name)
             continue
         # argmin and argmax are several times faster than min and max, and stop at NaN as well
-        lowest, highest = int(values.argmin()), int(values.argmax())
-        low, high = float(values[lowest]), float(values[highest])
+        low, high = float(values[values.argmin()]), float(values[values.argmax()])
         if not math.isfinite(low + high):
             found.append(_missing(name, values, time))
         elif low == high:
             dead.append(name)
         else:
-            alive.append(name)
-            for limit, later in ((high, values[highest + 1 :]), (low, values[lowest + 1 :])):
-                if later.size and later[later.argmax() if limit == high else later.argmin()] == limit:
-                    found += _flat_top(name, values, limit, high - low)
-            found += _spikes(name, values, time, high - low)
-    found += _dead_channels(channels, dead, alive, harmonic, lively)
+            ranges[name] = (low, high)
+    largest = max([force_unit, *(abs(value) for limits in ranges.values() for value in limits)])
+    alive = {name: high - low for name, (low, high) in ranges.items() if high - low > _ROUNDING * largest}
+    for name, span in alive.items():
+        found += _flat_tops(name, channels[name][rows])
+        found += _spikes(name, channels[name][rows], time[rows], span)
+    if dead:
+        found += _dead_channels(channels, dead, list(alive), lively)
     return found
 
 
@@ -81,28 +90,19 @@ def _missing(name: str, values: np.ndarray, time: np.ndarray) -> Finding:
 
 
 def _dead_channels(
-    channels: Mapping[str, np.ndarray], dead: list[str], alive: list[str], harmonic: bool, lively: frozenset[str]
+    channels: Mapping[str, np.ndarray], dead: list[str], alive: list[str], lively: frozenset[str]
 ) -> list[Finding]:
     found = []
-    if not dead:
-        return []
-    # Noise-free records of steady runs are constant by right, and a noise-free X may be; a dead channel stands
-    # out because the channels beside it are noisy or oscillate.
+    # Noise-free records of steady runs are constant by right, and noise-free forces may vanish; a dead channel of
+    # a balance stands out because the channels beside it are noisy.
     noisy = any(_is_noisy(channels[name]) for name in alive)
     for name in dead:
-        suspicious = name in lively or (noisy and name in FORCES)
-        if not suspicious:
+        if name not in lively and not (noisy and name in FORCES):
             continue
-        level = float(channels[name][0])
-        other = "the run oscillates it" if name in lively and harmonic else "the other forces are not constant"
-        found.append(
-            finding(
-                "constant-channel",
-                f"{name} is {level:.6g} in all samples while {other}",
-                severity="error" if name in FORCES else "warning",
-                place=f"channel {name}",
-            )
-        )
+        reason = "the run oscillates it" if name in lively else "the other forces are not constant"
+        text = f"{name} is {float(channels[name][0]):.6g} in all samples while {reason}"
+        severity: Severity = "error" if noisy and name in FORCES else "warning"
+        found.append(finding("constant-channel", text, severity=severity, place=f"channel {name}"))
     return found
 
 
@@ -111,12 +111,17 @@ def _is_noisy(values: np.ndarray) -> bool:
     return float(np.mean(steps[1:] * steps[:-1] < 0.0)) > 0.2 if len(steps) > 2 else False
 
 
-def _flat_top(name: str, values: np.ndarray, limit: float, span: float) -> list[Finding]:
-    share = _clipped_share(values, limit, span)
-    if not share:
-        return []
-    text = f"{name} stays at exactly {limit:.6g} in {share:.1%} of the samples"
-    return [finding("saturated-channel", text, place=f"channel {name}")]
+def _flat_tops(name: str, values: np.ndarray) -> list[Finding]:
+    highest, lowest = int(values.argmax()), int(values.argmin())
+    high, low = values[highest], values[lowest]
+    found = []
+    for limit, later in ((high, values[highest + 1 :]), (low, values[lowest + 1 :])):
+        if later.size and later[later.argmax() if limit == high else later.argmin()] == limit:
+            share = _clipped_share(values, float(limit), float(high - low))
+            if share:
+                text = f"{name} stays at exactly {limit:.6g} in {share:.1%} of the samples"
+                found.append(finding("saturated-channel", text, place=f"channel {name}"))
+    return found
 
 
 def _clipped_share(values: np.ndarray, limit: float, span: float) -> float:
@@ -129,6 +134,8 @@ def _clipped_share(values: np.ndarray, limit: float, span: float) -> float:
     count = int(np.count_nonzero(at))
     distance = np.abs(values - limit)
     others = distance[~at]
+    if others.size == 0:
+        return 0.0
     next_level = float(others.min())
     beside = int(np.count_nonzero(others <= next_level * (1 + 1e-9)))
     if count < max(10, 0.01 * len(values), 5 * beside) or count > 0.6 * len(values) or next_level > 0.2 * span:
@@ -148,6 +155,9 @@ def _spikes(name: str, values: np.ndarray, time: np.ndarray, span: float) -> lis
     limit = max(_SPIKE * 1.4826 * float(sample[middle]), 0.1 * span)
     if steps[steps.argmax()] <= limit and steps[steps.argmin()] >= -limit:
         return []
+    # One or two steps of a coarse converter are no spike.
+    sizes = np.abs(steps)
+    limit = max(limit, 3.5 * float(sizes[sizes > 1e-6 * span].min()))
     # A spike goes and comes back; a step only goes. What happens at the very start is the transient's.
     first = len(values) // 10
     there, back = steps[first:-1], steps[first + 1 :]
@@ -166,10 +176,10 @@ def _spikes(name: str, values: np.ndarray, time: np.ndarray, span: float) -> lis
 
 
 def audit_steadiness(channels: Mapping[str, np.ndarray], rows: slice) -> list[Finding]:
-    """Finding when no part of a steady run is steady.
+    """Finding when a steady run never settles.
 
-    The forces X and Y are averaged over eight blocks; the run has a steady part when three blocks in a row agree
-    within 5 % of the force or within four standard errors of their means.
+    X and Y are averaged over eight blocks. The run is all transient when the means of one of them rise or fall
+    from block to block to the very end, by more than 15 % of the force in all and by 5 % in the last quarter.
 
     Parameters
     ----------
@@ -178,27 +188,24 @@ def audit_steadiness(channels: Mapping[str, np.ndarray], rows: slice) -> list[Fi
         Samples at constant carriage speed.
     """
     names = [name for name in ("X", "Y") if name in channels]
-    length = (rows.stop - rows.start) // (_BLOCKS * _PARTS)
+    length = (rows.stop - rows.start) // _BLOCKS
     if not names or length < 2:
         return []
-    used = slice(rows.start, rows.start + length * _BLOCKS * _PARTS)
-    parts = np.array([np.add.reduce(channels[name][used].reshape(-1, length), axis=1) for name in names]) / length
-    parts = parts.reshape(len(names), _BLOCKS, _PARTS)
-    means = np.add.reduce(parts, axis=2) / _PARTS
-    size = sorted(math.hypot(*block) for block in means.T.tolist())[_BLOCKS // 2]
-    spread = np.array(
-        [[max(row[i : i + 3]) - min(row[i : i + 3]) for i in range(_BLOCKS - 2)] for row in means.tolist()]
-    )
-    if (spread <= _SETTLED * size).all(axis=0).any():
-        return []
-    error = np.sqrt(np.median(parts.var(axis=2, ddof=1), axis=1) / _PARTS)
-    allowed = np.maximum(_SETTLED * size, 4.0 * error)[:, None]
-    if (spread <= allowed).all(axis=0).any():
-        return []
-    worst = int(np.argmax((spread / allowed).max(axis=1)))
-    first, last = float(means[worst, 0]), float(means[worst, -1])
-    text = (
-        f"{names[worst]} keeps changing through the run, from {first:.4g} N in its first eighth to {last:.4g} N "
-        "in its last; no part of it is steady"
-    )
-    return [finding("transient-only", text)]
+    used = slice(rows.start, rows.start + length * _BLOCKS)
+    means = np.array([np.add.reduce(channels[name][used].reshape(_BLOCKS, length), axis=1) for name in names])
+    means /= length
+    for name, blocks in zip(names, means.tolist()):
+        steps = [after - before for before, after in pairwise(blocks)]
+        if min(steps) * max(steps) <= 0:
+            continue
+        size = float(np.median(np.hypot.reduce(means, axis=0)))
+        change, late = abs(blocks[-1] - blocks[0]), abs(blocks[-1] - blocks[-3])
+        if change > _CHANGES * size and late > 0.05 * size:
+            text = (
+                f"{name} keeps changing to the end of the run, from {blocks[0]:.4g} N in its first eighth to "
+                f"{blocks[-1]:.4g} N in its last"
+            )
+            return [
+                finding("transient-only", text, severity="error" if change > _NEVER_SETTLES * size else "warning")
+            ]
+    return []

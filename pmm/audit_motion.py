@@ -70,7 +70,7 @@ def _swapped_forces(seen: RecordedHarmonics, run: Run) -> list[Finding]:
     if run.kind not in ("pure_sway", "pure_yaw", "dry_sway") or "X" not in seen or "Y" not in seen:
         return []
     x, y = abs(seen.first["X"]), abs(seen.first["Y"])
-    if x <= 5.0 * y or x <= 2.0 * seen.second("X"):
+    if x <= 5.0 * y or x <= 2.0 * seen.second("X") or seen.fit_quality("X")[0] < 0.5:
         return []
     text = f"X oscillates at the frequency of the motion ({x:.4g} N) and Y hardly does ({y:.4g} N)"
     return [finding("swapped-channels", text, place="channels X, Y")]
@@ -200,7 +200,10 @@ def _amplitudes(seen: RecordedHarmonics, want: ExpectedMotion, explained: set[st
         if not measured:
             continue  # a dead channel has a finding of its own
         if name in ("v", "vdot"):
-            there = abs(want.sway_at(want.reference)) * (expected / abs(want.first["v"]))
-            expected = min(expected, there, key=lambda one: abs(measured - one)) if there else expected
+            # v may be that of midship or of the point on the path
+            there = expected * abs(want.sway_at(want.reference)) / abs(want.first["v"])
+            expected = min(expected, there, key=lambda one: abs(measured - one))
+        if expected <= want.smallest[name]:
+            continue
         found += compare_size(name, measured / expected, f"an amplitude of {measured:.4g}", f"{expected:.4g}")
     return found

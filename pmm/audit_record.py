@@ -61,20 +61,19 @@ def audit_record(record: Record, run: Run, ship: Ship, *, reference: float = 0.0
     time = record.time
     found, usable = audit_time(time)
     if usable:
-        lively = _LIVELY.get(run.kind, frozenset())
-        found += audit_channels(record.channels, time, harmonic=run.harmonic, lively=lively)
+        channels = record.channels
+        rows = slice(0, len(time)) if run.harmonic else rows_at_speed(channels, len(time))
+        unit = 0.5 * ship.rho * ship.L * ship.T * run.speed**2
+        found += audit_channels(channels, time, rows, lively=_LIVELY.get(run.kind, frozenset()), force_unit=unit)
         incomplete = {item.place for item in found if item.rule == "missing-values"}
-        channels = {
-            name: values for name, values in record.channels.items() if f"channel {name}" not in incomplete
-        }
+        if incomplete:
+            channels = {name: values for name, values in channels.items() if f"channel {name}" not in incomplete}
         if run.harmonic:
             cycles = _cycles(time, run)
             found += cycles
             if not any(item.severity == "error" for item in cycles):
                 found += audit_oscillation(channels, time, run, ship, reference)
-            rows = slice(0, len(time))
         else:
-            rows = rows_at_speed(channels, len(time))
             found += audit_steadiness(channels, rows)
             found += audit_steady_motion(channels, time, rows, run, ship, reference)
         found += audit_constant_angles(channels, rows, run)

@@ -90,7 +90,7 @@ class Reduction(_Section):
 class SharedBias(_Section):
     """``[fit.shared_bias]``: standard uncertainties that all runs share (type B).
 
-    Gains are relative; offsets are in SI (N, Nm, rad, m/s, m).
+    Gains and the carriage speed are relative; offsets are in N and N m, ``drift_angle`` in rad, ``moment_x`` in m.
     """
 
     gain: dict[str, float] = Field(default_factory=dict)

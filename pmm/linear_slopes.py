@@ -155,4 +155,4 @@ def _harmonic_slope(runs: Sequence[RunSummary], name: str, phase: int, units: Se
         amplitude = one.acceleration_amplitude if phase else one.velocity_amplitude
         product += one.first_harmonic[name][phase] * amplitude / unit
         square += amplitude**2
-    return product / square if square > 0.0 else None
+    return float(product / square) if square > 0.0 else None

@@ -13,7 +13,8 @@ from ..core.errors import FitError, TermError
 from ..core.motion import scaled_state
 from ..core.terms import Term
 from ..identify import model_selection
-from ..identify.regression import LinearFit, fit_linear
+from ..identify.linear_fit import LinearFit
+from ..identify.regression import fit_linear
 from .campaign_file import Fit
 from .component_fit import default_stages, fit_component
 from .force_rows import ForceRows, between_run_scatter, force_rows
@@ -106,7 +107,7 @@ def _compared(
     columns = {
         m: [t.name for t in terms if t.name in excited] for m, terms in candidates.items() if m not in failed
     }
-    weights = _common_weights(data, columns.values(), settings)
+    weights = _common_weights(data, list(columns.values()), settings)
     fits: dict[str, LinearFit] = {}
     for model, names in columns.items():
         try:

@@ -6,7 +6,7 @@ The multiple-run method fits, for each kind of test apart, the curve that the te
   likewise
 * yaw with drift: low order (MRL) from the means, Yv v0 + Yvvv v0^3 + 1/2 Yvrr v0 R^2 together with static drift,
   and from c1 = B + Yvvr v0^2 R with one intercept B an amplitude; high order (MRH) from c2 = 1/2 Yvrr v0 R^2
-* steady tests: polynomials of the mean in v', r', rudder angle or heel
+* steady tests: polynomials of the mean in v', r', rudder angle, heel or bank distance
 
 The relations are those of the DTC planar-motion paper of MASHCON 2019 (equations 7 to 9) for any list of terms.
 """
@@ -54,6 +54,9 @@ STEADY_CURVES: dict[str, tuple[tuple[str, ...], frozenset[str]]] = {
     ),
 }
 """Curve -> (types of runs whose means it goes through, variables of its terms); the last type must be there."""
+
+STEADY_VARIABLES = frozenset({"v", "beta", "r", "delta", "phi", "eta"})
+"""Variables that steady runs hold constant."""
 
 _ROW_NAMES = {
     MEAN: "mean",
@@ -145,9 +148,10 @@ class _Test:
 
     @property
     def kind(self) -> str:
-        # A yaw run with drift whose angle is zero is a pure yaw run.
-        drifting = self.motion is not None and self.motion.drift
-        return "pure_yaw" if self.run.run.kind == "yaw_drift" and not drifting else self.run.run.kind
+        """Type of the run; yaw runs by their drift angle, whatever they are called."""
+        if self.motion is None or self.motion.velocity != "r":
+            return self.run.run.kind
+        return "yaw_drift" if self.motion.drift else "pure_yaw"
 
     @property
     def straight(self) -> bool:
@@ -196,8 +200,16 @@ class _CurveFitter:
                     for test in tests
                     if test.straight or (test.kind in kinds and conditions_are_zero(test.run, variables))
                 ]
-                terms = [term for term in self.terms if set(term.variables) <= variables]
-                self._fit(f"{label}, mean", terms, used, [test.columns(terms, MEAN) for test in used], MEAN)
+                self._mean_fit(f"{label}, mean", variables, used)
+        # Terms that combine heel or a bank with drift and yaw need all steady runs at once.
+        steady = [test for test in tests if not test.run.run.harmonic]
+        if any(not conditions_are_zero(test.run) for test in steady):
+            self._mean_fit("all steady runs, mean", STEADY_VARIABLES, steady)
+
+    def _mean_fit(self, method: str, variables: frozenset[str], tests: Sequence[_Test]) -> None:
+        """Polynomial of the means in `variables`."""
+        terms = [term for term in self.terms if set(term.variables) <= variables]
+        self._fit(method, terms, tests, [test.columns(terms, MEAN) for test in tests], MEAN)
 
     def pure(self, tests: Sequence[_Test], ordinate: Ordinate) -> None:
         """Mean and harmonics of pure sway, yaw and surge against the amplitude."""
@@ -221,9 +233,7 @@ class _CurveFitter:
         yaw = drifting + [test for test in level if test.kind == "pure_yaw" and _pure(test)]
         self._first_harmonic(drifting, yaw)
         static = [test for test in level if test.kind == "static_drift"]
-        terms = [term for term in self.terms if set(term.variables) <= STEADY_CURVES["steady yaw with drift"][1]]
-        columns = [test.columns(terms, MEAN) for test in (*static, *yaw)]
-        self._fit("yaw with drift, mean (MRL)", terms, [*static, *yaw], columns, MEAN)
+        self._mean_fit("yaw with drift, mean (MRL)", STEADY_CURVES["steady yaw with drift"][1], [*static, *yaw])
 
     def _first_harmonic(self, drifting: Sequence[_Test], yaw: Sequence[_Test]) -> None:
         """Coupling from cos 1: what yaw alone gives is one unknown for each yaw amplitude."""
@@ -259,7 +269,7 @@ class _CurveFitter:
         if ratio:
             amplitude = np.array([test.motion.amplitude if test.motion else math.nan for test in tests])
             design, response, sd = design / amplitude[:, None], response / amplitude, np.full_like(sd, math.nan)
-        excited = np.flatnonzero((design != 0).any(axis=0))
+        excited = np.flatnonzero((design != 0).any(axis=0)).tolist()
         names = [terms[i].name for i in excited if i < len(terms)]
         if not names:
             return

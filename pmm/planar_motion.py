@@ -41,18 +41,49 @@ class Oscillation:
         """``amplitude * cos(w t + phase)``."""
         return cls(0.0, (amplitude * float(np.cos(phase)),), (-amplitude * float(np.sin(phase)),))
 
-    def derivative(self, t: np.ndarray, omega: float, order: int) -> np.ndarray:
-        """Time derivative of the given order at `t`, shape of `t`."""
+    def derivative(self, t: np.ndarray, omega: float, order: int, waves: Waves | None = None) -> np.ndarray:
+        """Time derivative of the given order at `t`, shape of `t`; `waves` of the same `t` and `omega` save time."""
+        waves = waves or Waves(t, omega)
         value = np.full(np.shape(t), self.constant if order == 0 else 0.0)
         for k, (a, b) in enumerate(zip(self.cosine, self.sine, strict=True), start=1):
-            if a == 0.0 and b == 0.0:
-                continue
             # each derivative turns (cos, sin) by 90 deg and multiplies by k w
             c, s = a, b
             for _ in range(order):
                 c, s = s * k * omega, -c * k * omega
-            value += c * np.cos(k * omega * t) + s * np.sin(k * omega * t)
+            if c:
+                value += c * waves.cos(k)
+            if s:
+                value += s * waves.sin(k)
         return value
+
+
+class Waves:
+    """Cosines and sines of the harmonics of w t, each computed once.
+
+    Parameters
+    ----------
+    t : ndarray
+        Time in s.
+    omega : float
+        Circular frequency in rad/s.
+    """
+
+    def __init__(self, t: np.ndarray, omega: float) -> None:
+        self._phase = omega * np.asarray(t, dtype=float)
+        self._cos: dict[int, np.ndarray] = {}
+        self._sin: dict[int, np.ndarray] = {}
+
+    def cos(self, k: int) -> np.ndarray:
+        """``cos(k w t)``."""
+        if k not in self._cos:
+            self._cos[k] = np.cos(k * self._phase)
+        return self._cos[k]
+
+    def sin(self, k: int) -> np.ndarray:
+        """``sin(k w t)``."""
+        if k not in self._sin:
+            self._sin[k] = np.sin(k * self._phase)
+        return self._sin[k]
 
 
 @dataclass(frozen=True)
@@ -101,26 +132,30 @@ class PlanarMotion:
         -------
         dict
             ``surge``, ``v``, ``udot``, ``vdot`` in m/s and m/s2; ``r``, ``rdot`` in rad/s and rad/s2; ``psi``
-            in rad; ``x``, ``y`` in m; and the constants; each of shape (n,).
+            in rad; ``x``, ``y`` of the reference point in m; and the constants; each of shape (n,).
         """
         t = np.asarray(t, dtype=float)
         w = self.omega
         if w == 0.0:
             return self._steady(t)
-        xd = self.speed + self.surge.derivative(t, w, 1)
-        xdd = self.surge.derivative(t, w, 2)
-        yd, ydd = self.sway.derivative(t, w, 1), self.sway.derivative(t, w, 2)
-        psi = self.heading.derivative(t, w, 0)
-        r, rdot = self.heading.derivative(t, w, 1), self.heading.derivative(t, w, 2)
+        waves = Waves(t, w)
+        xd = self.speed + self.surge.derivative(t, w, 1, waves)
+        xdd = self.surge.derivative(t, w, 2, waves)
+        yd, ydd = self.sway.derivative(t, w, 1, waves), self.sway.derivative(t, w, 2, waves)
+        psi = self.heading.derivative(t, w, 0, waves) if self.heading.cosine else np.float64(self.heading.constant)
+        r, rdot = self.heading.derivative(t, w, 1, waves), self.heading.derivative(t, w, 2, waves)
+        cos, sin = np.cos(psi), np.sin(psi)
         if self.along_path:
-            ydddot, xdddot = self.sway.derivative(t, w, 3), self.surge.derivative(t, w, 3)
+            ydddot, xdddot = self.sway.derivative(t, w, 3, waves), self.surge.derivative(t, w, 3, waves)
             square = xd * xd + yd * yd
             turning = xd * ydd - yd * xdd
-            psi = psi + np.arctan2(yd, xd)
             r = r + turning / square
             turning_rate = xd * ydddot - yd * xdddot
-            rdot = rdot + turning_rate / square - turning * 2.0 * (xd * xdd + yd * ydd) / square**2
-        cos, sin = np.cos(psi), np.sin(psi)
+            rdot = rdot + (turning_rate - turning * 2.0 * (xd * xdd + yd * ydd) / square) / square
+            # heading = direction of the path + psi, by the addition theorems
+            path = np.sqrt(square)
+            cos, sin = (xd * cos - yd * sin) / path, (yd * cos + xd * sin) / path
+            psi = psi + np.arctan2(yd, xd)
         u = xd * cos + yd * sin
         v = -xd * sin + yd * cos
         udot = xdd * cos + ydd * sin + r * v
@@ -132,9 +167,9 @@ class PlanarMotion:
             "udot": udot,
             "vdot": vdot - self.reference * rdot,
             "rdot": rdot,
-            "psi": psi,
-            "x": self.speed * t + self.surge.derivative(t, w, 0),
-            "y": self.sway.derivative(t, w, 0),
+            "psi": np.broadcast_to(psi, np.shape(t)),
+            "x": self.speed * t + self.surge.derivative(t, w, 0, waves),
+            "y": self.sway.derivative(t, w, 0, waves),
         }
         return self._with_constants(motion, t)
 

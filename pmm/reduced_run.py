@@ -250,5 +250,9 @@ def term_columns(
     at: Mapping[str, np.ndarray], terms: Iterable[Term], ship: Ship, velocity_scale: str, approach_speed: float
 ) -> dict[tuple[Factor, ...], np.ndarray]:
     """Product of factors of each term at every sample of a motion (sign of the term left out)."""
-    state, _ = scaled_state(at, ship, Conventions(velocity_scale=velocity_scale), approach_speed)
+    terms = tuple(terms)
+    wanted = {variable for term in terms for variable in term.variables}
+    state, _ = scaled_state(
+        at, ship, Conventions(velocity_scale=velocity_scale), approach_speed, only=wanted or {"v"}
+    )
     return {term.factors: term.sign * term.column(state) for term in terms}

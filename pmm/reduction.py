@@ -20,8 +20,7 @@ from ..core.scales import force_unit
 from ..core.ship import Ship
 from ..core.terms import Term
 from ..identify.autocorrelation import mean_with_error
-from ..identify.harmonics import HarmonicProjector
-from ..identify.harmonics import find_frequency, fit_harmonics, whole_cycle_window
+from ..identify.harmonics import HarmonicProjector, find_frequency, fit_harmonics, whole_cycle_window
 from ..identify.steady_window import steady_window
 from .campaign_file import Reduction
 from .planar_motion import PlanarMotion, measured_motion, prescribed_motion
@@ -128,7 +127,8 @@ def _reduce(record: Record, run: Run, plan: ReductionPlan, findings: tuple[Findi
             if name in forces:
                 forces[name] = forces[name] + reaction
         record = record.with_channels(f"inertia: {plan.inertia.describe()} added back")
-    speed = _scaling_speed(at, motion, settings.nondimensional_speed)
+    # A model in air has no speed to scale forces with; 1 m/s keeps them finite.
+    speed = np.ones(window.count) if run.dry else _scaling_speed(at, motion, settings.nondimensional_speed)
     scaled = {name: values / (force_unit(name, "LT", ship, 1.0) * speed**2) for name, values in forces.items()}
     if run.harmonic:
         result = _harmonics(window, omega, settings.harmonics, forces, scaled)
@@ -137,9 +137,10 @@ def _reduce(record: Record, run: Run, plan: ReductionPlan, findings: tuple[Findi
     order = settings.harmonics if run.harmonic else 0
     if order == 0 and not plan.time_domain:
         at = {name: values[:1] for name, values in at.items()}
-    columns = term_columns(at, plan.terms, ship, settings.nondimensional_speed, motion.speed)
+    terms, scale = plan.terms, settings.nondimensional_speed
+    columns = {} if run.dry else term_columns(at, terms, ship, scale, motion.speed)
     samples = None
-    if plan.time_domain:
+    if plan.time_domain and not run.dry:
         root = math.sqrt(window.count)
         line = 1 if run.harmonic else 0
         # sd of a coefficient is sqrt(2 S/n) for a cosine, sqrt(S/n) for a mean

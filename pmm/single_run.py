@@ -14,6 +14,7 @@ relations assume sinusoidal velocities; where the motion is none the estimates a
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -209,12 +210,13 @@ def single_run_table(runs: Sequence[ReducedRun], *, form: Form = "cubic") -> pd.
     Returns
     -------
     DataFrame
-        Columns run, kind, name, value, std, note. ``attrs["left_out"]`` says which runs gave none, and why.
+        Columns run, kind, name, value, std, note. ``attrs["left_out"]`` says which runs gave nothing, and why.
     """
     import pandas as pd
 
     rows: list[tuple[str, str, str, float, float, str]] = []
     left_out: list[str] = []
+    without: Counter[str] = Counter()
     for run in runs:
         try:
             estimates = single_run_derivatives(run, form=form, companions=runs)
@@ -222,12 +224,13 @@ def single_run_table(runs: Sequence[ReducedRun], *, form: Form = "cubic") -> pd.
             left_out.append(f"{run.name}: {error.cause}")
             continue
         if not estimates:
-            left_out.append(f"{run.name}: no textbook relation for this {run.run.kind} run")
+            more = "" if conditions_are_zero(run) else " with rudder, heel or bank"
+            without[f"{run.run.kind} run(s){more}"] += 1
         for name, (value, std) in estimates.items():
             note = "ratio of force to motion, not a derivative" if "/" in name else ""
             rows.append((run.name, run.run.kind, name, value, std, note))
     frame = pd.DataFrame(rows, columns=["run", "kind", "name", "value", "std", "note"])
-    frame.attrs["left_out"] = left_out
+    frame.attrs["left_out"] = left_out + [f"{n} {what}: no textbook relation" for what, n in without.items()]
     return frame
 
 

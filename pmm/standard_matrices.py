@@ -86,11 +86,10 @@ def standard_matrix(kind: str, ship: Ship, speed: float | None = None) -> list[R
     ]
 
 
-def static_drift(angles: Sequence[float], speed: float, **more: float) -> list[Run]:
+def static_drift(angles: Sequence[float], speed: float) -> list[Run]:
     """Oblique towing at drift angles in degrees."""
     return [
-        Run(f"drift {angle:+g} deg", "static_drift", speed, drift_angle=math.radians(angle), **more)
-        for angle in angles
+        Run(f"drift {angle:+g} deg", "static_drift", speed, drift_angle=math.radians(angle)) for angle in angles
     ]
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .laboratory import Laboratory
-from .planar_motion import Oscillation
+from .planar_motion import Oscillation, Waves
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class GrowingOscillation(Oscillation):
 
     rise: float = 1.0
 
-    def derivative(self, t: np.ndarray, omega: float, order: int) -> np.ndarray:
+    def derivative(self, t: np.ndarray, omega: float, order: int, waves: Waves | None = None) -> np.ndarray:
         """Time derivative of the given order at `t`, by the product rule."""
         s = np.clip(np.asarray(t, dtype=float) / self.rise, 0.0, 1.0)
         growth = np.polynomial.Polynomial([0, 0, 0, 0, 35, -84, 70, -20])
@@ -29,7 +29,7 @@ class GrowingOscillation(Oscillation):
         value = np.full(np.shape(t), self.constant if order == 0 else 0.0)
         for k in range(order + 1):
             envelope = growth.deriv(k)(s) / self.rise**k if k else growth(s)
-            value += math.comb(order, k) * envelope * Oscillation.derivative(moving, t, omega, order - k)
+            value += math.comb(order, k) * envelope * Oscillation.derivative(moving, t, omega, order - k, waves)
         return value
 
 

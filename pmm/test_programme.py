@@ -25,13 +25,10 @@ from .laboratory import STANDARD_LABORATORY, Laboratory
 from .noise import Noise, reference_forces
 from .planned_rows import PlannedRows, RowNoise, planned_rows
 from .run_types import Run
-from .virtual_records import as_measured, sets_by_depth, virtual_run
+from .virtual_records import EXCITED, as_measured, sets_by_depth, virtual_run
 
 if TYPE_CHECKING:
     import pandas as pd
-
-EXCITED = 1e-12
-"""Largest value of a scaled term column over the programme that counts as no excitation."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -323,7 +320,6 @@ def _outlook(programme: Programme, component: str) -> ComponentOutlook:
     positions = programme.rows[0].places[component]
     design = np.vstack([rows.design[component] for rows in programme.rows])
     white = np.vstack([rows.whitened[component] for rows in programme.rows])
-    weight = np.concatenate([1.0 / np.diag(rows.covariance[component]) for rows in programme.rows])
     names = [programme.terms[i].name for i in positions]
     excited = np.abs(design).max(axis=0, initial=0.0) > EXCITED
     covariance = np.diag(np.full(len(names), np.inf))
@@ -340,13 +336,11 @@ def _outlook(programme: Programme, component: str) -> ComponentOutlook:
     block = right @ right.T
     kept = live[found]
     covariance[np.ix_(kept, kept)] = block[np.ix_(found, found)]
-    columns = design[:, kept]
+    constant = np.flatnonzero((np.ptp(design, axis=0) == 0.0) & excited)
+    level = white[:, constant[0]] if constant.size else np.ones(len(white))
+    columns = white[:, kept]
     vif[kept] = variance_inflation(
-        np.diag(block)[found],
-        weight @ columns**2,
-        weight @ columns,
-        float(weight.sum()),
-        bool((np.ptp(design[:, live], axis=0) == 0.0).any()),
+        np.diag(block)[found], (columns**2).sum(axis=0), level @ columns, float(level @ level), bool(constant.size)
     )
     groups = tuple(tuple(name for name in alive if name in group) for group in inseparable_terms(svd, alive))
     return ComponentOutlook(positions, covariance, vif, svd.condition_number, dead, groups)

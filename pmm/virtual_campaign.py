@@ -12,7 +12,7 @@ import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -34,6 +34,7 @@ from .virtual_records import (
     UNITS,
     ZERO_RUN,
     VirtualRun,
+    excited_terms,
     require_names,
     sets_by_depth,
     synthesize_records,
@@ -41,13 +42,13 @@ from .virtual_records import (
     zero_run,
 )
 
-__all__ = ["CAMPAIGN_FILE", "Format", "synthesize", "synthesize_records"]
-
-Format = Literal["text", "csv", "simman"]
+__all__ = ["CAMPAIGN_FILE", "FORMATS", "campaign_text", "synthesize", "synthesize_records"]
 
 CAMPAIGN_FILE = "campaign.toml"
 
-_ENDINGS: dict[str, str] = {"text": ".txt", "csv": ".csv", "simman": ".simman"}
+FORMATS: dict[str, str] = {"text": ".txt", "csv": ".csv", "simman": ".simman"}
+"""Formats of run files, with the ending of each."""
+
 _ACCELERATIONS = ("udot", "vdot", "rdot")
 
 
@@ -59,7 +60,7 @@ def synthesize(
     name: str,
     noise: Noise = SILENT,
     laboratory: Laboratory = STANDARD_LABORATORY,
-    fmt: Format = "text",
+    fmt: str = "text",
     fit_terms: str | Sequence[str | Term] | None = None,
     reference: Mapping[str, float] | None = None,
     digits: int | None = None,
@@ -85,7 +86,8 @@ def synthesize(
     fmt : {"text", "csv", "simman"}
         Tab-separated or comma-separated tables with a row of units, or the SIMMAN form with a condition file.
     fit_terms : str or sequence, optional
-        Hull model or terms that the campaign file asks for; those of the set when not given.
+        Hull model or terms that the campaign file asks for; those of the set that the runs excite when not
+        given.
     reference : mapping of str to float, optional
         Reference forces of the noise in N and Nm; the largest force of each channel when not given.
     digits : int, optional
@@ -107,18 +109,22 @@ def synthesize(
     TermError, ConventionError
         When the set cannot be evaluated on the runs.
     """
-    if fmt not in _ENDINGS:
-        raise CampaignError(f"'{fmt}' is not a format of run files", cure=f"use one of {', '.join(_ENDINGS)}")
+    if fmt not in FORMATS:
+        raise CampaignError(f"'{fmt}' is not a format of run files", cure=f"use one of {', '.join(FORMATS)}")
     require_names(runs)
     sets = sets_by_depth(derivatives)
-    terms = _fit_section(fit_terms, sets)
+    if fit_terms is None:
+        fit_terms = excited_terms(sets, runs, laboratory)
+        if not fit_terms:
+            raise CampaignError("no run excites a term of the set", cure="give runs that vary its variables")
+    terms = _fit_section(fit_terms)
     if reference is None:
         wet = [run for run in runs if not run.dry] or runs
         reference = reference_forces(virtual_run(sets, run, laboratory).forces for run in wet)
     target = Path(folder)
     with _new_folder(target, overwrite) as place:
         (place / "runs").mkdir()
-        files = _file_names(runs, _ENDINGS[fmt])
+        files = _file_names(runs, FORMATS[fmt])
         for number, (run, file) in enumerate(zip(runs, files, strict=True)):
             clean = virtual_run(sets, run, laboratory)
             _write_run(clean, run, place / file, fmt, noise, reference, digits)
@@ -127,7 +133,7 @@ def synthesize(
         ship = next(iter(sets.values())).ship
         tare = ""
         if laboratory.balance_zero:
-            tare = f"runs/{ZERO_RUN}{_ENDINGS[fmt]}"
+            tare = f"runs/{ZERO_RUN}{FORMATS[fmt]}"
             still = zero_run(ship, laboratory, clean.forces)
             _write_run(still, None, place / tare, fmt, noise, reference, digits)
         matrix = matrix_frame(runs, laboratory.conventions)
@@ -278,15 +284,12 @@ def _condition(ship: Ship, run: Run | None) -> dict[str, str | float]:
     return {key: value for key, value in known.items() if value is not None}
 
 
-def _fit_section(
-    wanted: str | Sequence[str | Term] | None, sets: Mapping[float | None, DerivativeSet]
-) -> dict[str, Any]:
+def _fit_section(wanted: str | Sequence[str | Term]) -> dict[str, Any]:
     if isinstance(wanted, str):
         if wanted not in HULL_MODELS:
             raise TermError(f"unknown hull model '{wanted}'", cure=f"use one of {', '.join(HULL_MODELS)}")
         return {"model": wanted}
-    unique = {(term.component, term.factors): term for one in sets.values() for term in one.terms}
-    terms = parse_terms(wanted) if wanted is not None else tuple(unique.values())
+    terms = parse_terms(wanted)
     for model in HULL_MODELS:
         if terms == hull_model(model):
             return {"model": model}

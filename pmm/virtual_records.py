@@ -15,9 +15,10 @@ import numpy as np
 
 from ..core.derivative_set import DerivativeSet
 from ..core.errors import CampaignError, ConventionError
-from ..core.motion import origin_position
+from ..core.motion import origin_position, scaled_state
 from ..core.record import Record
 from ..core.ship import Ship
+from ..core.terms import Factor, Term
 from .laboratory import STANDARD_LABORATORY, Laboratory
 from .noise import SILENT, Noise, reference_forces
 from .planar_motion import Oscillation, prescribed_motion
@@ -43,6 +44,9 @@ UNITS = {
     "rdot": "rad/s2",
 }
 """Channels of a virtual record in their order, with the SI unit of each."""
+
+EXCITED = 1e-12
+"""Largest value of a scaled term column over all runs that counts as no excitation."""
 
 MotionAndForces = tuple[dict[str, np.ndarray], dict[str, np.ndarray]]
 
@@ -228,11 +232,38 @@ def virtual_run(
     run : Run
     laboratory : Laboratory
     """
-    derivatives = _set_for(run, sets)
+    derivatives = set_for(run, sets)
     make = _oscillating if run.harmonic else _steady
     motion, hydrodynamic = make(derivatives, run, laboratory)
     forces = _readings(hydrodynamic, motion, run, laboratory, derivatives.ship)
     return VirtualRun(run.name, derivatives.ship, laboratory, laboratory.times(run), motion, forces)
+
+
+def excited_terms(
+    sets: Mapping[float | None, DerivativeSet], runs: Sequence[Run], laboratory: Laboratory = STANDARD_LABORATORY
+) -> tuple[Term, ...]:
+    """Terms of the sets that some run excites, each once, in their order.
+
+    Parameters
+    ----------
+    sets : mapping
+        Of :func:`sets_by_depth`.
+    runs : sequence of Run
+    laboratory : Laboratory
+    """
+    largest: dict[tuple[str, tuple[Factor, ...]], float] = {}
+    unique = {(term.component, term.factors): term for one in sets.values() for term in one.terms}
+    for run in runs:
+        if run.dry:
+            continue
+        one = set_for(run, sets)
+        time = np.linspace(0.0, run.period, 32, endpoint=False) if run.harmonic else np.zeros(1)
+        motion = prescribed_motion(run, laboratory.path_point(one.ship)).at(time)
+        state, _ = scaled_state(motion, one.ship, one.conventions.but(force_scaling="LT"), run.speed)
+        for term in one.terms:
+            key = (term.component, term.factors)
+            largest[key] = max(largest.get(key, 0.0), float(np.abs(term.column(state)).max()))
+    return tuple(term for key, term in unique.items() if largest.get(key, 0.0) > EXCITED)
 
 
 def zero_run(ship: Ship, laboratory: Laboratory, channels: Iterable[str]) -> VirtualRun:
@@ -247,7 +278,14 @@ def zero_run(ship: Ship, laboratory: Laboratory, channels: Iterable[str]) -> Vir
     )
 
 
-def _set_for(run: Run, sets: Mapping[float | None, DerivativeSet]) -> DerivativeSet:
+def set_for(run: Run, sets: Mapping[float | None, DerivativeSet]) -> DerivativeSet:
+    """The set of a run's water depth.
+
+    Raises
+    ------
+    CampaignError
+        When there is none.
+    """
     if None in sets:
         return sets[None]
     depth = next(iter(sets.values())).ship.depth if run.depth is None else run.depth

@@ -14,8 +14,8 @@ from .figure_style import COMPONENT_COLOURS, INK, MUTED, ORANGE, PURPLE, new_axe
 if TYPE_CHECKING:
     import pandas as pd
 
-WIDEST = 120.0
-"""Per cent of the value beyond which an interval is cut, with an arrow."""
+NARROWEST, WIDEST = 5.0, 120.0
+"""Per cent of the value that the figure shows at least and at most; longer intervals end in arrows."""
 
 
 def derivative_forest(
@@ -43,54 +43,49 @@ def derivative_forest(
         interval = derivatives.conf_int()
         low = 100 * (interval["lower"].to_numpy() - derivatives.values) / size
         high = 100 * (interval["upper"].to_numpy() - derivatives.values) / size
-    rows = np.arange(count)
+    reach = _reach(np.concatenate([-low, high]))
+    ax.set_xlim(-1.04 * reach, 1.04 * reach)
     ax.axvline(0.0, color=MUTED, linewidth=0.8)
     for row, term in enumerate(derivatives.terms):
         colour = COMPONENT_COLOURS[term.component]
         if np.isfinite(low[row]):
-            ax.plot([max(low[row], -WIDEST), min(high[row], WIDEST)], [row, row], color=colour, linewidth=2.2)
-            if high[row] > WIDEST:
-                ax.plot([-WIDEST], [row], "<", [WIDEST], [row], ">", color=colour, markersize=5)
+            ax.plot([max(low[row], -reach), min(high[row], reach)], [row, row], color=colour, linewidth=2.2)
+            if high[row] > reach:
+                ax.plot([-reach], [row], "<", [reach], [row], ">", color=colour, markersize=5)
         ax.plot([0.0], [row], "o", color=colour, markersize=5)
     if ways is not None:
-        _draw_ways(ax, derivatives, ways)
-    ax.set_yticks(rows, list(derivatives.names))
+        _draw_ways(ax, derivatives, ways, reach)
+    ax.set_yticks(np.arange(count), list(derivatives.names))
     ax.set_ylim(count - 0.4, -0.6)
-    widest = np.nanmax(np.abs(np.concatenate([low, high])), initial=5.0)
-    reach = min(max(1.08 * widest, 5.0), 1.04 * WIDEST)
-    if ways is not None:
-        reach = max(reach, min(1.08 * _widest_way(derivatives, ways), 1.04 * WIDEST))
-    ax.set_xlim(-reach, reach)
     ax.set_xlabel("95 % interval about the value [% of the value]")
     ax.grid(False, axis="y")
     small_legend(ax, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderpad=0)
     return ax
 
 
+def _reach(halves: np.ndarray) -> float:
+    """Half width of the figure: room for the intervals of most derivatives."""
+    finite = halves[np.isfinite(halves)]
+    if not finite.size:
+        return WIDEST
+    return float(np.clip(4.0 * np.median(finite), NARROWEST, WIDEST))
+
+
 _WAYS = (("single", "mean of single runs", "x", PURPLE), ("multiple", "multiple-run curves", "D", ORANGE))
 
 
-def _way_offsets(derivatives: DerivativeSet, ways: pd.DataFrame, way: str) -> np.ndarray:
-    """Estimates of one way less the fit, in per cent of the fit, in the order of the set."""
-    percent = dict(zip(ways["name"], ways[f"{way}_minus_fit_percent"], strict=True))
-    return np.array([percent.get(name, np.nan) for name in derivatives.names], dtype=float)
-
-
-def _widest_way(derivatives: DerivativeSet, ways: pd.DataFrame) -> float:
-    offsets = np.concatenate([_way_offsets(derivatives, ways, way) for way, *_ in _WAYS])
-    return float(np.nanmax(np.abs(offsets), initial=0.0))
-
-
-def _draw_ways(ax: Axes, derivatives: DerivativeSet, ways: pd.DataFrame) -> None:
+def _draw_ways(ax: Axes, derivatives: DerivativeSet, ways: pd.DataFrame, reach: float) -> None:
+    """Estimates of the other ways that lie within the figure."""
     for way, label, marker, colour in _WAYS:
-        offsets = np.clip(_way_offsets(derivatives, ways, way), -WIDEST, WIDEST)
-        known = np.flatnonzero(np.isfinite(offsets))
+        percent = dict(zip(ways["name"], ways[f"{way}_minus_fit_percent"], strict=True))
+        offsets = np.array([percent.get(name, np.nan) for name in derivatives.names], dtype=float)
+        inside = np.flatnonzero(np.abs(offsets) <= reach)
         ax.plot(
-            offsets[known],
-            known,
+            offsets[inside],
+            inside,
             marker,
             color=colour,
-            markersize=5,
+            markersize=4.5,
             markeredgecolor=INK if marker == "D" else colour,
             markeredgewidth=0.5 if marker == "D" else 1.4,
             linestyle="none",
@@ -125,9 +120,8 @@ def correlation_map(derivatives: DerivativeSet, *, ax: Axes | None = None) -> Ax
     for i, j in zip(*np.nonzero(np.triu(np.abs(correlation) > 0.9, 1)), strict=True):
         for x, y in ((i, j), (j, i)):
             ax.text(x, y, f"{100 * correlation[i, j]:.0f}", ha="center", va="center", fontsize=5.5, color="white")
-    size = 8 if count <= 14 else 7 if count <= 24 else 5.5
+    size = 8 if count <= 24 else 6
     ax.set_xticks(range(count), list(derivatives.names), rotation=90, fontsize=size)
     ax.set_yticks(range(count), list(derivatives.names), fontsize=size)
-    ax.tick_params(length=0)
     ax.grid(False)
     return ax

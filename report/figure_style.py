@@ -27,7 +27,7 @@ CYCLE = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
 MARKERS = ("o", "s", "^", "D", "v", "P")
 COMPONENT_COLOURS = {"X": GREEN, "Y": BLUE, "N": VERMILLION, "K": PURPLE}
 
-PANEL = (3.9, 2.65)
+PANEL = (3.45, 2.35)
 """Width and height in inch of a figure that shares a row with others."""
 
 _VARIABLE_COLOURS = {INK: "var(--ink)", RULE: "var(--rule)", MUTED: "var(--muted)"}
@@ -53,15 +53,17 @@ class Sheet:
     def __init__(
         self,
         size: tuple[float, float] = PANEL,
-        margins: tuple[float, float, float, float] = (0.66, 0.12, 0.48, 0.12),
+        margins: tuple[float, float, float, float] = (0.66, 0.1, 0.46, 0.12),
     ) -> None:
         width, height = size
         left, right, bottom, top = margins
         self.figure = Figure(figsize=size, facecolor="none")
-        self.axes = self.figure.add_axes(
-            (left / width, bottom / height, 1 - (left + right) / width, 1 - (bottom + top) / height)
-        )
+        across, up = width - left - right, height - bottom - top
+        self.axes = self.figure.add_axes((left / width, bottom / height, across / width, up / height))
         style_axes(self.axes)
+        # labels stand in line from panel to panel, whatever the width of the tick labels
+        self.axes.xaxis.set_label_coords(0.5, -(bottom - 0.2) / up)
+        self.axes.yaxis.set_label_coords(-(left - 0.13) / across, 0.5)
 
     def fresh(self) -> Axes:
         """The axes without what was drawn before."""
@@ -99,7 +101,8 @@ def style_axes(ax: Axes) -> None:
         axis.set_major_locator(MaxNLocator(5))
         axis.label.set(fontsize=9, color=INK)
         axis.get_offset_text().set(fontsize=7.5, color=INK)
-    ax.tick_params(labelsize=8, labelcolor=INK, color=RULE, length=3, width=0.8)
+    # the grid marks the ticks already
+    ax.tick_params(labelsize=8, labelcolor=INK, left=False, bottom=False)
     ax.grid(True, color=RULE, linewidth=0.5)
     ax.set_axisbelow(True)
 

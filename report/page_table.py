@@ -11,7 +11,8 @@ from .typography import aligned, fixed, significant
 if TYPE_CHECKING:
     import pandas as pd
 
-Kind = Literal["text", "number", "code"]
+Kind = Literal["text", "short", "number", "code"]
+"""``short`` text is not broken into lines."""
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,10 @@ from matplotlib.axes import Axes
 from ..pmm.component_fit import ComponentFit
 from ..pmm.hull_fit import HullFit
 from .figure_style import BLUE, COMPONENT_COLOURS, CYCLE, INK, MARKERS, MUTED, new_axes, small_legend
-from .force_curves import harmonic_name, interval_factor
+from .force_curves import interval_factor
 from .force_figures import FORCE_NAMES, finite
 
-_BANDS = (("mean", 0, 0), ("1st harmonic", 1, 2), ("2nd harmonic", 3, 4), ("higher", 5, 10_000))
+_BANDS = (("mean", 0, 0), ("1st harmonic", 1, 2), ("2nd", 3, 4), ("higher", 5, 10_000))
 
 OUTLYING = 4.0
 """Standardised residual from which a run is named in the figure."""
@@ -22,6 +22,12 @@ def standardised_residuals(result: ComponentFit) -> np.ndarray:
     sd = result.row_sd
     known = np.isfinite(sd) & (sd > 0)
     return np.divide(result.residual, sd, out=np.zeros(len(sd)), where=known)
+
+
+def _by_band(harmonic: np.ndarray) -> list[tuple[str, np.ndarray]]:
+    """Rows of the mean, the first, the second and the higher harmonics, as masks; those that are there."""
+    masks = [(name, (harmonic >= low) & (harmonic <= high)) for name, low, high in _BANDS]
+    return [(name, mask) for name, mask in masks if mask.any()]
 
 
 def residuals_by_run(fit: HullFit, component: str, *, ax: Axes | None = None) -> Axes:
@@ -44,18 +50,16 @@ def residuals_by_run(fit: HullFit, component: str, *, ax: Axes | None = None) ->
     ax.axhspan(-2, 2, color=BLUE, alpha=0.08, linewidth=0)
     ax.axhline(0.0, color=MUTED, linewidth=0.8)
     several = len(np.unique(rows.harmonic)) > 1
-    for number, (name, low, high) in enumerate(_BANDS):
-        chosen = (rows.harmonic >= low) & (rows.harmonic <= high)
-        if chosen.any():
-            ax.plot(
-                rows.run[chosen] + 1,
-                size[chosen],
-                MARKERS[number],
-                color=CYCLE[number] if several else INK,
-                markersize=3.5,
-                alpha=0.85,
-                label=name if several else None,
-            )
+    for number, (name, chosen) in enumerate(_by_band(rows.harmonic)):
+        ax.plot(
+            rows.run[chosen] + 1,
+            size[chosen],
+            MARKERS[number],
+            color=CYCLE[number] if several else INK,
+            markersize=3.5,
+            alpha=0.85,
+            label=name if several else None,
+        )
     for index in np.unique(rows.run[np.abs(size) > OUTLYING])[:4].tolist():
         own = np.flatnonzero(rows.run == index)
         worst = own[np.argmax(np.abs(size[own]))]
@@ -77,7 +81,16 @@ def residuals_by_run(fit: HullFit, component: str, *, ax: Axes | None = None) ->
     ax.set_xlabel("number of the run")
     ax.set_ylabel(f"residual of {component} [standard deviations]")
     if several:
-        small_legend(ax, loc="lower center", bbox_to_anchor=(0.5, 0.98), ncols=4, columnspacing=1.0, borderpad=0)
+        small_legend(
+            ax,
+            loc="lower center",
+            bbox_to_anchor=(0.47, 0.98),
+            ncols=4,
+            columnspacing=0.8,
+            handlelength=0.8,
+            handletextpad=0.3,
+            borderpad=0,
+        )
     return ax
 
 
@@ -98,20 +111,15 @@ def measured_against_fitted(fit: HullFit, component: str, *, ax: Axes | None = N
     ends = np.array([both.min(), both.max()])
     ax.plot(ends, ends, color=MUTED, linewidth=0.9)
     half = interval_factor(np.inf) * finite(result.row_sd)
-    harmonics = np.unique(rows.harmonic)
-    for number, harmonic in enumerate(harmonics.tolist()):
-        chosen = rows.harmonic == harmonic
-        ax.errorbar(
-            fitted[chosen],
-            rows.response[chosen],
-            yerr=half[chosen],
-            fmt=MARKERS[number % len(MARKERS)],
-            color=CYCLE[number % len(CYCLE)] if len(harmonics) > 1 else COMPONENT_COLOURS[component],
-            markersize=3.5,
-            elinewidth=0.8,
-            label=harmonic_name(harmonic) if len(harmonics) > 1 else None,
-        )
+    ax.errorbar(
+        fitted,
+        rows.response,
+        yerr=half,
+        fmt="o",
+        color=COMPONENT_COLOURS[component],
+        markersize=3.5,
+        elinewidth=0.8,
+    )
     ax.set_xlabel(f"fitted {FORCE_NAMES[component]} [-]")
     ax.set_ylabel(f"measured {component}′ [-]")
-    small_legend(ax, loc="upper left", ncols=2, columnspacing=0.8)
     return ax

@@ -32,6 +32,21 @@ _SYMBOLS = {
 }
 
 
+_PRINTED = {"0.5 rho": "½ ρ", "rho": "ρ", "^2": "²", "^3": "³", "sqrt(g L)": "√(g L)", "beta": "β", "'": "′"}
+
+
+def printed_formula(text: str) -> str:
+    """A formula of plain letters as it is printed: Greek letters, powers, roots, primes."""
+    for plain, printed in _PRINTED.items():
+        text = text.replace(plain, printed)
+    return text
+
+
+def symbol(variable: str) -> str:
+    """Letter of a motion variable; its name when it has none."""
+    return _SYMBOLS.get(variable, variable)
+
+
 def derivative_name(term: Term) -> Markup:
     """A term as HTML, e.g. ``Y<sub>vvr</sub>``; Greek letters and dots as in print."""
     if term.name == "R0":

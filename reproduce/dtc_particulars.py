@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ..datasets import load_extras, load_set, load_table
+from ..datasets import load_extras, load_set
 from .case import Case, half_digit
 from .grid_triplet import GridTriplet
+from .printed_numbers import KNOT, printed_by, printed_rows
 from .rounding import spread_of
-
-_KNOT = 1852.0 / 3600.0
 
 VISCOSITY = 1.005e-6
 """Kinematic viscosity in m2/s that Table 8 is computed with; not printed, found from its friction line."""
@@ -31,6 +30,7 @@ def _model(key: str) -> Iterator[Case]:
     speed = float(load_set("dtc").reference_speed or math.nan)
     for quantity, printed, computed, tolerance in (
         ("displaced volume of the model in m3", float(model.volume or math.nan), volume, half_digit(4)),
+        # 173467 m3 is rounded to 1 m3, half of which is 0.5 g of the model.
         ("mass of the model in kg", float(model.mass or math.nan), model.rho * volume, half_digit(4) + 5e-4),
         ("Froude number", 0.0523, model.froude_number(speed), half_digit(4)),
     ):
@@ -39,10 +39,10 @@ def _model(key: str) -> Iterator[Case]:
 
 def _grids(key: str) -> Iterator[Case]:
     """Grid uncertainty after Stern (2001), from the printed upper and lower forces."""
-    table = load_table("dtc-grids").frame.set_index("grid")
-    printed = load_table("dtc-grid-uncertainty").frame.iloc[0]
-    bounds = [float(table.loc[grid, name]) for grid in "123" for name in ("S_upper", "S_lower")]
-    refinement = float(printed["r_G"])
+    table = printed_by("dtc-grids", "grid")
+    (printed,) = printed_rows("dtc-grid-uncertainty")
+    bounds = [table[grid][name] for grid in "123" for name in ("S_upper", "S_lower")]
+    refinement = printed["r_G"]
 
     def triplet(*limits: float) -> GridTriplet:
         return GridTriplet(*(0.5 * (limits[i] + limits[i + 1]) for i in (0, 2, 4)))
@@ -61,8 +61,8 @@ def _grids(key: str) -> Iterator[Case]:
 
     notes = {
         "C_G": "far from 1: the grids are outside the asymptotic range",
-        "U_G": "the uncertainty of grid 2, from the coarse pair; the fine pair gives 0.0081 N (1.4 %), and then the "
-        "error of 6.4 % would not be validated",
+        "U_G": "the uncertainty of grid 2, from the coarse pair; the fine pair gives 0.0081 N (1.4 %), and then "
+        "the error of 6.4 % would not be validated",
     }
     for quantity, function, decimals in (
         ("eps21", lambda *s: triplet(*s).fine_change, 3),
@@ -77,28 +77,27 @@ def _grids(key: str) -> Iterator[Case]:
             key,
             "Table 3 to Table 4",
             quantity,
-            float(printed[quantity]),
+            printed[quantity],
             function(*bounds),
             spread_of(function, *((value, 4) for value in bounds)) + half_digit(decimals),
             note=notes.get(quantity, ""),
         )
-    elements = table["elements"].astype(float)
     for finer, coarser in (("2", "3"), ("1", "2")):
         yield Case(
             key,
             "Table 3 to Table 4",
             f"r_G from the elements of grids {finer} and {coarser}",
             refinement,
-            float(elements[finer] / elements[coarser]) ** (1.0 / 3.0),
+            (table[finer]["elements"] / table[coarser]["elements"]) ** (1.0 / 3.0),
             half_digit(2),
         )
     for grid in "321":
-        upper, lower = float(table.loc[grid, "S_upper"]), float(table.loc[grid, "S_lower"])
+        upper, lower = table[grid]["S_upper"], table[grid]["S_lower"]
         yield Case(
             key,
             "Table 3",
             f"iteration uncertainty of grid {grid} in N",
-            float(table.loc[grid, "iteration_uncertainty"]),
+            table[grid]["iteration_uncertainty"],
             0.5 * (upper - lower),
             half_digit(4),
         )
@@ -106,28 +105,28 @@ def _grids(key: str) -> Iterator[Case]:
 
 def _resistance(key: str) -> Iterator[Case]:
     """ITTC 1957 friction line with the form factor 1.094 at 6 knots of the ship."""
-    table = load_table("dtc-resistance").frame
     form_factor = 1.094
     full = load_set("dtc-drift-efd").ship.at_scale(1.0)
     wetted = float(load_extras("dtc-empirical")["hull"]["wetted_surface"])
     density = load_set("dtc").ship.rho
-    for row in table.itertuples():
-        ship = full.at_scale(float(row.scale), rho=density)
-        speed = 6.0 * _KNOT / math.sqrt(row.scale)
+    for row in printed_rows("dtc-resistance"):
+        scale = row["scale"]
+        ship = full.at_scale(scale, rho=density)
+        speed = 6.0 * KNOT / math.sqrt(scale)
         reynolds = speed * ship.L / VISCOSITY
         friction = 0.075 / (math.log10(reynolds) - 2.0) ** 2
         pressure = 0.5 * density * speed**2
-        frictional = pressure * wetted / row.scale**2 * friction
+        frictional = pressure * wetted / scale**2 * friction
         viscous = form_factor * frictional
         for quantity, printed, computed, decimals in (
-            ("C_F", row.C_F, friction, 6),
-            ("R_F in N", row.R_F, frictional, 3),
-            ("R_V in N", row.R_V, viscous, 3),
-            ("R0'", row.R0_empirical, viscous / (pressure * ship.L * ship.T), 4),
+            ("C_F", row["C_F"], friction, 6),
+            ("R_F in N", row["R_F"], frictional, 3),
+            ("R_V in N", row["R_V"], viscous, 3),
+            ("R0'", row["R0_empirical"], viscous / (pressure * ship.L * ship.T), 4),
         ):
-            yield Case(key, f"Table 8, 1:{row.scale:g}", quantity, float(printed), computed, half_digit(decimals))
-    force = float(load_table("dtc-grids").frame.set_index("grid").loc["2", "S"])
-    estimate = float(table.set_index("scale").loc[100.0, "R_V"])
+            yield Case(key, f"Table 8, 1:{scale:g}", quantity, printed, computed, half_digit(decimals))
+    force = printed_by("dtc-grids", "grid")["2"]["S"]
+    estimate = printed_by("dtc-resistance", "scale")[100.0]["R_V"]
     yield Case(key, "text, validation", "|E| = |S - D| in N", 0.0336, force - estimate, half_digit(4))
     yield Case(
         key,
@@ -143,20 +142,20 @@ def _resistance(key: str) -> Iterator[Case]:
 
 def _rudder(key: str) -> Iterator[Case]:
     """Table 13 from the particulars: Yoshimura and Masumoto (2012), and the area from the span."""
-    table = load_table("dtc-rudder").frame.set_index("parameter")["value"]
-    propeller = load_table("dtc-propulsion").frame.set_index("item")["value"]
+    table = {name: row["value"] for name, row in printed_by("dtc-rudder", "parameter").items()}
+    propeller = {name: row["value"] for name, row in printed_by("dtc-propulsion", "item").items()}
     ship = load_set("dtc-drift-efd").ship.at_scale(1.0)
     fullness = 0.661 * ship.B / ship.L
-    eps = 2.26 - 1.82 * (1.0 - float(propeller["wP0"]))
-    span = 100.0 * float(propeller["D"]) / float(table["eta"])
-    area = span**2 / float(table["aspect_ratio"])
+    eps = 2.26 - 1.82 * (1.0 - propeller["wP0"])
+    span = 100.0 * propeller["D"] / table["eta"]
+    area = span**2 / table["aspect_ratio"]
     for name, computed, decimals in (("aH", 3.6 * fullness, 2), ("eps", eps, 2), ("kappa", 0.55 / eps, 2)):
-        yield Case(key, "Table 13, rudder", name, float(table[name]), computed, half_digit(decimals))
+        yield Case(key, "Table 13, rudder", name, table[name], computed, half_digit(decimals))
     yield Case(
         key,
         "Table 13, rudder",
         "gammaR",
-        float(table["gammaR"]),
+        table["gammaR"],
         2.06 * fullness + 0.14,
         half_digit(2),
         expected=0.34,
@@ -166,9 +165,9 @@ def _rudder(key: str) -> Iterator[Case]:
         key,
         "Table 13, rudder",
         "A_R / (L T)",
-        float(table["area_over_LT"]),
+        table["area_over_LT"],
         area / (ship.L * ship.T),
         half_digit(4),
-        note="aspect ratio 1.756 and a span of D/eta = 12.9 m give 94 m2 and 0.0183; 0.0095 is half of it, and the "
-        "printed turning circle needs the larger one",
+        note="aspect ratio 1.756 and a span of D/eta = 12.9 m give 94 m2 and 0.0183; 0.0095 is half of it, and "
+        "the printed turning circle needs the larger one",
     )

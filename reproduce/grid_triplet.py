@@ -44,6 +44,6 @@ class GridTriplet(NamedTuple):
         """Observed order p for a constant refinement ratio, of a monotonic triplet."""
         return math.log(self.coarse_change / self.fine_change) / math.log(refinement)
 
-    def index(self, refinement: float, factor: float = 1.25) -> float:
+    def convergence_index(self, refinement: float, factor: float = 1.25) -> float:
         """Grid convergence index of the fine grid as an absolute value, ``factor |eps21| / (r^p - 1)``."""
         return factor * abs(self.fine_change) / (refinement ** self.order(refinement) - 1.0)

@@ -8,20 +8,19 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..core.scales import force_unit
-from ..core.ship import Ship
-from ..datasets import load_set, load_table
+from ..datasets import load_set
 from ..pmm.planar_motion import prescribed_motion
 from ..pmm.run_types import Run
 from ..verify import relative_errors
 from .case import Case, Paper, half_digit
+from .closed_loop import mean_forces
+from .printed_numbers import KNOT, printed_by, printed_rows, ship_of
 from .rounding import spread_of
 
 KEY = "dtmb-static-drift"
 
 SPEED = 1.531
 """Carriage speed in m/s of the captive runs (Table 3)."""
-
-_KNOT = 1852.0 / 3600.0
 
 
 def cases() -> Iterator[Case]:
@@ -35,45 +34,45 @@ def cases() -> Iterator[Case]:
 
 
 def _errors() -> Iterator[Case]:
-    table = load_table("dtmb5512-drift-errors").frame.set_index("source")
+    sources = printed_by("dtmb5512-drift-errors", "source")
     for force in ("X", "Y", "N"):
-        computed, measured = float(table.loc["CFD", force]), float(table.loc["EFD", force])
+        computed, measured = sources["CFD"][force], sources["EFD"][force]
         yield Case(
             KEY,
             "Table 3, static drift at 10 deg",
             f"(S - D)/D of {force} in %",
-            float(table.loc["CFD", f"{force}_error"]),
+            sources["CFD"][f"{force}_error"],
             float(relative_errors([computed], [measured]).s_minus_d[0]),
             half_digit(1),
         )
 
 
-def _model() -> Ship:
-    ship = load_table("dtmb5512-drift-errors").ship
-    assert ship is not None
-    return ship
-
-
 def _reference_area() -> Iterator[Case]:
     """Which area makes newtons of the printed forces: that of the oblique towing tests of the same model."""
-    ship = _model()
-    measured = load_table("dtmb5512-drift-errors").frame.set_index("source").loc["EFD"]
+    ship = ship_of("dtmb5512-drift-errors")
+    measured = printed_by("dtmb5512-drift-errors", "source")["EFD"]
     other = load_set("dtmb5512-drift-fn0.280-efd")
-    motion = prescribed_motion(Run("drift 10 deg", "static_drift", SPEED, drift_angle=math.radians(10)))
-    at = {name: float(values[0]) for name, values in motion.at(np.zeros(1)).items()}
-    known = abs(float(other.forces(at, approach_speed=SPEED)["Y"]))
+    run = Run("drift 10 deg", "static_drift", SPEED, drift_angle=math.radians(10))
+    known = mean_forces(other, run)["Y"] * force_unit("Y", "LT", other.ship, SPEED)
     newtons = {
-        scaling: {f: 1e-3 * float(measured[f]) * force_unit(f, scaling, ship, SPEED) for f in ("X", "Y")}
+        scaling: {f: 1e-3 * measured[f] * force_unit(f, scaling, ship, SPEED) for f in ("X", "Y")}
         for scaling in ("LT", "L2")
     }
     nearest = min(newtons, key=lambda scaling: abs(math.log(newtons[scaling]["Y"] / known)))
     note = (
-        f"the paper prints 0.5 rho V^2 L^2: Y of the measurement would be {newtons['L2']['Y']:.0f} N for a model of "
-        f"{ship.displacement_mass:g} kg; 0.5 rho V^2 L T gives {newtons['LT']['Y']:.1f} N, and the oblique towing "
-        f"derivatives of the same model at the same speed give {known:.1f} N"
+        f"the paper prints 0.5 rho V^2 L^2: Y of the measurement would be {newtons['L2']['Y']:.0f} N for a model "
+        f"of {ship.displacement_mass:g} kg; 0.5 rho V^2 L T gives {newtons['LT']['Y']:.1f} N, and the oblique "
+        f"towing derivatives of the same model at the same speed give {known:.1f} N"
     )
     yield Case(
-        KEY, "equations 3 to 5", "reference area of X and Y", "L^2", {"LT": "L T", "L2": "L^2"}[nearest], 0.0, "L T", note
+        KEY,
+        "equations 3 to 5",
+        "reference area of X and Y",
+        "L^2",
+        {"LT": "L T", "L2": "L^2"}[nearest],
+        0.0,
+        "L T",
+        note,
     )
     for scaling, force, value, decimals in (
         ("LT", "X", -9.25, 2),
@@ -93,7 +92,7 @@ def _reference_area() -> Iterator[Case]:
 
 
 def _particulars() -> Iterator[Case]:
-    ship = _model()
+    ship = ship_of("dtmb5512-drift-errors")
     block = float(ship.block_coefficient or math.nan)
     printed, draught = 0.506, 0.136
     yield Case(
@@ -104,14 +103,14 @@ def _particulars() -> Iterator[Case]:
         block * ship.T / draught,
         spread_of(lambda t: block * ship.T / t, (draught, 3)) + half_digit(3),
         expected=printed,
-        note=f"with the printed draught of {ship.T:g} m the block coefficient is {block:.3f}; 0.136 m is the draught "
-        "of this model in other papers",
+        note=f"with the printed draught of {ship.T:g} m the block coefficient is {block:.3f}; 0.136 m is the "
+        "draught of this model in other papers",
     )
 
 
 def _pure_sway() -> Iterator[Case]:
-    row = load_table("dtmb5512-sway-run").frame.iloc[0]
-    speed, amplitude, period = float(row["speed"]), float(row["amplitude"]), float(row["period"])
+    (row,) = printed_rows("dtmb5512-sway-run")
+    speed, amplitude, period = row["speed"], row["amplitude"], row["period"]
     run = Run("pure sway", "pure_sway", speed, frequency=2 * math.pi / period, sway_amplitude=amplitude)
     # sin(w t) passes through zero at t = 0 with the largest velocity.
     largest = float(prescribed_motion(run).at(np.zeros(1))["v"][0])
@@ -119,7 +118,7 @@ def _pure_sway() -> Iterator[Case]:
         KEY,
         "text, pure sway",
         "largest drift angle in deg",
-        float(row["beta_max"]),
+        row["beta_max"],
         math.degrees(math.atan(largest / speed)),
         half_digit(0),
     )
@@ -136,7 +135,7 @@ def _pure_sway() -> Iterator[Case]:
         "text, pure sway",
         "omega L/U (recomputed reference)",
         2.026,
-        run.frequency * _model().L / speed,
+        run.frequency * ship_of("dtmb5512-drift-errors").L / speed,
         half_digit(3),
     )
 
@@ -144,7 +143,7 @@ def _pure_sway() -> Iterator[Case]:
 def _self_propulsion() -> Iterator[Case]:
     """DTMB 5415M, 1:35.48: 23.6 knots, propeller of 6.10 m at 14.32 1/s in the model (Tables 4 and 5, text)."""
     scale, length, knots, diameter, rate = 35.48, 142.0, 23.6, 6.10, 14.32
-    speed = knots * _KNOT / math.sqrt(scale)
+    speed = knots * KNOT / math.sqrt(scale)
     for quantity, printed, computed, decimals in (
         ("speed of the model in m/s", 2.038, speed, 3),
         ("length of the model in m (recomputed reference)", 4.002, length / scale, 3),

@@ -9,13 +9,13 @@ from dataclasses import replace
 import numpy as np
 
 from ..core.ship import Ship
-from ..datasets import load_table
 from ..pmm.planar_motion import prescribed_motion
 from ..pmm.run_types import Run
 from ..pmm.standard_matrices import standard_matrix
 from ..verify import relative_errors
 from .case import Case, Paper, half_digit
 from .grid_triplet import GridTriplet
+from .printed_numbers import printed_by
 from .rounding import spread_of
 
 KEY = "kcs-depths"
@@ -36,21 +36,20 @@ def cases() -> Iterator[Case]:
 
 
 def _model() -> Ship:
-    full = load_table("kcs-depth-particulars").frame.set_index("item")["ship"]
-    ship = Ship("KCS", float(full["Lpp"]), float(full["B"]), float(full["T"]), volume=float(full["volume"]))
-    return ship.at_scale(SCALE)
+    full = {item: row["ship"] for item, row in printed_by("kcs-depth-particulars", "item").items()}
+    return Ship("KCS", full["Lpp"], full["B"], full["T"], volume=full["volume"]).at_scale(SCALE)
 
 
 def _triplets() -> dict[str, GridTriplet]:
-    grids = load_table("kcs-depth-grids").frame.set_index("grid")
+    grids = printed_by("kcs-depth-grids", "grid")
     return {
-        force: GridTriplet(*(float(grids.loc[name, force]) for name in ("fine", "medium", "coarse")))
+        force: GridTriplet(*(grids[name][force] for name in ("fine", "medium", "coarse")))
         for force in ("X", "Y", "N")
     }
 
 
 def _grid_ratios() -> Iterator[Case]:
-    printed = load_table("kcs-depth-grid-ratios").frame.set_index("quantity")["R_G"]
+    printed = printed_by("kcs-depth-grid-ratios", "quantity")
     notes = {
         "X": "the printed X' changes by 1e-6 and 28e-6 only: no rounding of six decimals makes the ratio -0.28",
     }
@@ -60,7 +59,7 @@ def _grid_ratios() -> Iterator[Case]:
             KEY,
             "Table 3, grid convergence",
             f"R_G of {force}'",
-            float(printed[force]),
+            printed[force]["R_G"],
             grids.ratio,
             spread + half_digit(4),
             note=notes.get(force, ""),
@@ -69,7 +68,7 @@ def _grid_ratios() -> Iterator[Case]:
 
 
 def _grid_changes() -> Iterator[Case]:
-    """The largest and smallest changes that the text claims (1.14 to 3.15 %, below 0.65 %), over the finer grid."""
+    """Changes that the text claims (1.14 to 3.15 %, then below 0.65 %), over the finer grid of each pair."""
     triplets = list(_triplets().values())
     to_medium = [100 * abs(grids.coarse_change / grids.medium) for grids in triplets]
     to_fine = [100 * abs(grids.fine_change / grids.fine) for grids in triplets]
@@ -84,12 +83,12 @@ def _grid_changes() -> Iterator[Case]:
 
 
 def _scaling() -> Iterator[Case]:
-    table = load_table("kcs-depth-particulars").frame.set_index("item")
+    table = printed_by("kcs-depth-particulars", "item")
     model = _model()
     by_ship = {"Lpp": model.L, "B": model.B, "T": model.T, "volume": model.volume}
     powers = {"Lpp": 1, "Lwl": 1, "B": 1, "D": 1, "T": 1, "volume": 3, "wetted surface": 2}
     for item, power in powers.items():
-        full = float(table.loc[item, "ship"])
+        full = table[item]["ship"]
         computed = by_ship.get(item) or full / SCALE**power
         # 232.5 m is rounded; the other particulars of this hull are exact.
         spread = half_digit(1) / SCALE if item == "Lwl" else 0.0
@@ -97,26 +96,25 @@ def _scaling() -> Iterator[Case]:
             KEY,
             "Table 1, scale 1:75.5",
             item,
-            float(table.loc[item, "model"]),
+            table[item]["model"],
             float(computed),
             spread + half_digit(4),
         )
-    full = table["ship"]
-    box = float(full["Lpp"] * full["B"] * full["T"])
+    box = table["Lpp"]["ship"] * table["B"]["ship"] * table["T"]["ship"]
     yield Case(
         KEY,
         "Table 1, scale 1:75.5",
         "block coefficient",
-        float(table.loc["Cb", "ship"]),
+        table["Cb"]["ship"],
         float(model.block_coefficient or math.nan),
-        spread_of(lambda volume: volume / box, (float(full["volume"]), 0)) + half_digit(3),
+        spread_of(lambda volume: volume / box, (table["volume"]["ship"], 0)) + half_digit(3),
     )
 
 
 def _keel_clearances() -> Iterator[Case]:
-    below = load_table("kcs-depth-domain").frame.set_index("direction").loc["below the keel"]
-    printed_model = load_table("kcs-depth-particulars").frame.set_index("item")["model"]
-    draught, length = float(printed_model["T"]), float(printed_model["Lpp"])
+    below = printed_by("kcs-depth-domain", "direction")["below the keel"]
+    particulars = printed_by("kcs-depth-particulars", "item")
+    draught, length = particulars["T"]["model"], particulars["Lpp"]["model"]
     spread = spread_of(lambda t, l: t / l, (draught, 4), (length, 4))
     cut_off = "the print is cut off, not rounded"
     for ratio, column, decimals, expected in (
@@ -128,13 +126,13 @@ def _keel_clearances() -> Iterator[Case]:
             KEY,
             "Table 2, domain",
             f"depth below the keel over L at h/T = {ratio:g}",
-            float(below[column]),
+            below[column],
             (ratio - 1.0) * draught / length,
             (ratio - 1.0) * spread + half_digit(decimals),
             expected=expected,
             note=cut_off if expected else "",
         )
-    clearance = float(below["deep"]) * length / draught
+    clearance = below["deep"] * length / draught
     yield Case(
         KEY,
         "Table 2, domain",
@@ -159,8 +157,22 @@ def _motions() -> Iterator[Case]:
     model = _model()
     runs = {run.name: run for run in standard_matrix("kcs-depths", model)}
     reference = {
-        "h/T 32": {"v'": 0.1346, "beta": 7.66, "omega' sway": 1.367, "psi": 9.55, "r'": 0.285, "omega' yaw": 1.708},
-        "h/T 1.2": {"v'": 0.3425, "beta": 18.91, "omega' sway": 3.478, "psi": 23.18, "r'": 1.759, "omega' yaw": 4.348},
+        "h/T 32": {
+            "v'": 0.1346,
+            "beta": 7.66,
+            "omega' sway": 1.367,
+            "psi": 9.55,
+            "r'": 0.285,
+            "omega' yaw": 1.708,
+        },
+        "h/T 1.2": {
+            "v'": 0.3425,
+            "beta": 18.91,
+            "omega' sway": 3.478,
+            "psi": 23.18,
+            "r'": 1.759,
+            "omega' yaw": 4.348,
+        },
     }
     decimals = {"v'": 4, "beta": 2, "omega' sway": 3, "psi": 2, "r'": 3, "omega' yaw": 3}
     units = {"beta": " in deg", "psi": " in deg"}
@@ -206,23 +218,23 @@ def _depth_froude_numbers() -> Iterator[Case]:
 
 
 def _turning() -> Iterator[Case]:
-    table = load_table("kcs-depth-turning").frame.set_index("quantity")
+    table = printed_by("kcs-depth-turning", "quantity")
     notes = {
-        "tactical diameter": "(2.71 - 2.585)/2.71 is 4.6 %, and 4.8 % of the simulated value; rounding of 2.71 and "
-        "2.585 explains 0.2 % only",
+        "tactical diameter": "(2.71 - 2.585)/2.71 is 4.6 %, and 4.8 % of the simulated value; rounding of 2.71 "
+        "and 2.585 explains 0.2 % only",
         "advance": "(2.85 - 2.754)/2.85 is 3.4 %; as a share of the simulated value, 3.5 %, the rounding of 2.85 "
         "could make it 3.64, but no base makes the 5.1 % of the tactical diameter too",
     }
     for quantity, note in notes.items():
-        row = table.loc[quantity]
-        numbers = (float(row["simulated"]), 3), (float(row["measured"]), 2)
+        row = table[quantity]
+        numbers = (row["simulated"], 3), (row["measured"], 2)
         spread = spread_of(lambda s, d: float(relative_errors([s], [d]).absolute[0]), *numbers)
         decimals = 1 if quantity == "tactical diameter" else 2
         yield Case(
             KEY,
             "Table 4, 35 deg turn",
             f"difference of the {quantity}, % of the measurement",
-            float(row["difference"]),
+            row["difference"],
             float(relative_errors([row["simulated"]], [row["measured"]]).absolute[0]),
             spread + half_digit(decimals),
             note=note,
@@ -231,27 +243,27 @@ def _turning() -> Iterator[Case]:
 
 def _steady_turn() -> Iterator[Case]:
     """What the steady turns of the text say about each other."""
-    steady = load_table("kcs-depth-steady-turn").frame.set_index("depth")
-    speed, rate = float(steady.loc["deep", "speed"]), float(steady.loc["deep", "yaw_rate"])
-    fast = float(steady.loc["1.2", "speed"])
+    steady = printed_by("kcs-depth-steady-turn", "depth")
+    speed, rate = steady["deep"]["speed"], steady["deep"]["yaw_rate"]
+    fast = steady["1.2"]["speed"]
     change = spread_of(lambda a, b: 100 * (a / b - 1), (fast, 2), (speed, 2))
     yield Case(
         KEY,
         "text, steady turn",
         "speed at h/T = 1.2 over that in deep water, %",
-        float(steady.loc["1.2", "speed_change"]),
+        steady["1.2"]["speed_change"],
         100 * (fast / speed - 1.0),
         change + half_digit(0),
         note="the text calls the change of the steady speed a smaller speed loss",
     )
     length = _model().L
-    printed = load_table("kcs-depth-turning").frame.set_index("quantity").loc["steady turning radius", "simulated"]
+    printed = printed_by("kcs-depth-turning", "quantity")["steady turning radius"]["simulated"]
     spread = spread_of(lambda u, r: u / math.radians(r) / length, (speed, 2), (rate, 1))
     yield Case(
         KEY,
         "text, steady turn",
         "radius U/r in deep water over L",
-        float(printed),
+        printed,
         speed / math.radians(rate) / length,
         spread + half_digit(3),
     )

@@ -6,15 +6,14 @@ import math
 from collections.abc import Iterator
 
 from ..core.ship import Ship
-from ..datasets import load_set, load_table
+from ..datasets import load_set
 from ..verify import relative_errors
 from .case import Case, Paper, half_digit
+from .printed_numbers import KNOT, printed_by
 
 KEY = "kcs-waves"
 
 CALM = "kcs-waves-calm"
-
-_KNOT = 1852.0 / 3600.0
 
 _SMALL = "L^2 scaling of the paper over L T scaling: a factor L/T = 21.3"
 
@@ -30,7 +29,7 @@ def _model() -> Iterator[Case]:
     full = load_set("kcs").ship
     scale = load_set(CALM).ship.scale
     model: Ship = full.at_scale(scale)
-    speed = 16 * _KNOT / math.sqrt(scale)
+    speed = 16 * KNOT / math.sqrt(scale)
     for quantity, printed, computed, decimals in (
         ("length in m", 3.49, model.L, 2),
         ("displaced volume in m3", 0.1818, float(model.volume or math.nan), 4),
@@ -42,21 +41,21 @@ def _model() -> Iterator[Case]:
 
 def _effect_of_waves() -> Iterator[Case]:
     """Changes against calm water and sway levers; the paper prints the derivatives only."""
-    printed = load_table("kcs-waves-effect").frame.set_index("set")
-    programme = load_table("kcs-waves-coefficients").frame.set_index("set")
+    printed = printed_by("kcs-waves-effect", "set")
+    programme = printed_by("kcs-waves-coefficients", "set")
     calm = load_set(CALM)
-    for key in printed.index:
+    for key, references in printed.items():
         waves = load_set(key)
-        case = f"Table 3, {programme.loc[key, 'waves']} water"
+        case = f"Table 3, {programme[key]['waves']} water"
         if key != CALM:
-            case = f"Table 3, {programme.loc[key, 'waves']} waves of {programme.loc[key, 'wave_length']:g} L"
+            case = f"Table 3, {programme[key]['waves']} waves of {programme[key]['wave_length']:g} L"
             for name in ("Yv", "Nv"):
                 change = float(relative_errors([waves[name]], [calm[name]]).s_minus_d[0])
                 yield Case(
                     KEY,
                     case,
                     f"change of {name} in % (recomputed reference)",
-                    float(printed.loc[key, f"{name}_change"]),
+                    references[f"{name}_change"],
                     change,
                     half_digit(1),
                 )
@@ -64,7 +63,7 @@ def _effect_of_waves() -> Iterator[Case]:
             KEY,
             case,
             "lever Nv/Yv (recomputed reference)",
-            float(printed.loc[key, "lever"]),
+            references["lever"],
             waves["Nv"] / waves["Yv"],
             half_digit(3),
         )

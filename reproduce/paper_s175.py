@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ..datasets import load_set, load_table
+from ..datasets import load_set
 from ..verify import relative_errors
 from .case import Case, Paper, half_digit
+from .printed_numbers import printed_rows
 from .rounding import spread_of
 
 KEY = "s175"
@@ -54,21 +55,20 @@ def _scaling() -> Iterator[Case]:
 
 
 def _turning_errors() -> Iterator[Case]:
-    table = load_table("s175-turning").frame
-    for row in table.itertuples():
-        printed = float(row.error)
+    for row in printed_rows("s175-turning"):
+        printed = row["error"]
         decimals = 2 if printed == -2.07 else 3
         spread = spread_of(
             lambda s, d: float(relative_errors([s], [d]).s_minus_d[0]),
-            (float(row.simulated), 3),
-            (float(row.measured), 3),
+            (row["simulated"], 3),
+            (row["measured"], 3),
         )
         yield Case(
             KEY,
-            f"Tables 3, 4, 6 and 7, {row.derivatives}",
-            f"error of the {row.quantity}, {row.turn}, %",
+            f"Tables 3, 4, 6 and 7, {row['derivatives']}",
+            f"error of the {row['quantity']}, {row['turn']}, %",
             printed,
-            float(relative_errors([row.simulated], [row.measured]).s_minus_d[0]),
+            float(relative_errors([row["simulated"]], [row["measured"]]).s_minus_d[0]),
             spread + half_digit(decimals),
         )
 

@@ -49,14 +49,14 @@ def test_small_matrices_give_the_cluster_corrections_of_the_definition(correctio
 
 
 def test_cr2_is_unbiased_for_alike_errors() -> None:
-    y = np.random.default_rng(1).standard_normal((N, 3000))
+    y = np.random.default_rng(1).standard_normal((N, 1500))
     total = np.zeros((4, 4))
     for column in y.T:
         residual = column - FIT.q @ (FIT.q.T @ column)
         geometry = group_geometry(FIT.q, residual, run_of_row)
         total += cluster_covariance(geometry, FIT.back, 1.0, FIT.dof, "cr2")[0]
     expected = np.diagonal(np.linalg.inv(X.T @ X))
-    np.testing.assert_allclose(np.diagonal(total) / 3000, expected, rtol=0.06)
+    np.testing.assert_allclose(np.diagonal(total) / 1500, expected, rtol=0.08)
 
 
 def test_groups_need_not_be_in_order() -> None:

@@ -25,9 +25,7 @@ def test_points_follow_the_origin_unless_they_are_given():
 
 
 def test_records_have_the_length_that_was_asked_for():
-    laboratory = Laboratory(
-        sampling_rate=10.0, duration=20.0, cycles=4, rest=2.0, ramp=3.0, startup_cycles=2
-    )
+    laboratory = Laboratory(sampling_rate=10.0, duration=20.0, cycles=4, rest=2.0, ramp=3.0, startup_cycles=2)
     assert len(laboratory.times(TOW)) == 300
     assert len(laboratory.times()) == 200
     oscillating = laboratory.times(SWAY)

@@ -99,6 +99,17 @@ def test_synthetic_planar_motion_returns_its_inputs(reduced, hull) -> None:
     assert counts["Yvdot", "pure sway, sin 1"] == 3
 
 
+def test_yaw_runs_go_by_their_drift_angle(reduced, hull) -> None:
+    length = hull.ship.L
+    tests = [drift(b) for b in (-6, 0, 3, 9)] + [yaw(0.2, length), yaw(0.2, length, 4), yaw(0.2, length, 8)]
+    swapped = {"yaw_drift": "pure_yaw", "pure_yaw": "yaw_drift", "static_drift": "static_drift"}
+    runs = reduced(hull, tests)
+    renamed = reduced(hull, [replace(run, kind=swapped[run.kind]) for run in tests])
+    a, b = (multiple_run_derivatives(group, hull.terms) for group in (runs, renamed))
+    assert list(a["method"]) == list(b["method"])
+    np.testing.assert_allclose(a["value"], b["value"], rtol=1e-12)
+
+
 def test_static_and_mrh_come_first(reduced, hull) -> None:
     length = hull.ship.L
     tests = [drift(b) for b in (-9, 0, 3, 6, 12)] + [sway(v) for v in (0.05, 0.1, 0.15)]
@@ -248,10 +259,25 @@ def test_rudder_and_heel_have_curves_of_their_own(reduced, ship) -> None:
         assert table.loc[name, "value"] == pytest.approx(value, rel=1e-8)
     assert table.loc["Yd", "method"] == "static rudder, mean"
     assert table.loc["Yphi", "method"] == "static heel, mean"
+    assert "all steady runs, mean" in set(frame["method"])
     # the drift run with rudder is no point of the drift curve
     counts = frame[frame["method"] == "static drift, mean"].set_index("name")["n"]
     assert counts["X0"] == 4
     assert counts["Yv"] == 3
+
+
+def test_terms_of_a_bank_come_from_all_steady_runs(reduced, ship) -> None:
+    terms = hull_model("bank")
+    values = dict(zip((term.name for term in terms), np.linspace(-0.5, 0.5, len(terms)), strict=True))
+    hull = DerivativeSet.from_values("bank", ship, values, INSIDE)
+    tests = [drift(b, bank_position=eta) for b in (-8, -4, 0, 4, 8, 12) for eta in (-0.6, 0.0, 0.4, 0.8)]
+    tests = [replace(run, name=f"{run.name} {run.bank_position}") for run in tests]
+    frame = multiple_run_derivatives(reduced(hull, tests), terms).drop_duplicates("name").set_index("name")
+    assert set(frame.index) == set(values)
+    for name, value in values.items():
+        assert frame.loc[name, "value"] == pytest.approx(value, rel=1e-8)
+    assert frame.loc["Yvveta", "method"] == "all steady runs, mean"
+    assert frame.loc["Yv", "method"] == "static drift, mean"
 
 
 def test_modulus_model(reduced, ship) -> None:

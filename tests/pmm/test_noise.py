@@ -32,10 +32,10 @@ def test_white_noise_has_the_stated_share_of_each_reference():
 
 
 def test_autoregressive_noise_has_the_stated_spread_and_memory():
-    values = Noise(ar1=0.05, rho=0.8, seed=2).readings(still(60000), REFERENCE, "a")["Y"]
-    assert values.std() == pytest.approx(0.5, rel=0.03)
+    values = Noise(ar1=0.05, rho=0.8, seed=2).readings(still(30000), REFERENCE, "a")["Y"]
+    assert values.std() == pytest.approx(0.5, rel=0.04)
     for lag in (1, 3):
-        assert np.corrcoef(values[:-lag], values[lag:])[0, 1] == pytest.approx(0.8**lag, abs=0.03)
+        assert np.corrcoef(values[:-lag], values[lag:])[0, 1] == pytest.approx(0.8**lag, abs=0.04)
 
 
 def test_autoregression_is_stationary_from_its_first_sample():
@@ -100,12 +100,12 @@ def test_readings_are_whole_steps_of_the_converter():
 def test_density_gives_the_variance_of_means_and_harmonics(rho):
     noise = Noise(white=0.05, ar1=0.1, rho=rho)
     n, cycles = 400, 8
-    names = [f"run {i}" for i in range(1500)]
+    names = [f"run {i}" for i in range(1000)]
     samples = np.array([noise.readings(still(n), REFERENCE, name)["Y"] for name in names])
     density = 100.0 * noise.density(np.array([0.0, cycles / n]))
     cosine = 2.0 / n * samples @ np.cos(2 * np.pi * cycles / n * np.arange(n))
-    assert samples.mean(axis=1).var() == pytest.approx(density[0] / n, rel=0.12)
-    assert cosine.var() == pytest.approx(2 * density[1] / n, rel=0.12)
+    assert samples.mean(axis=1).var() == pytest.approx(density[0] / n, rel=0.15)
+    assert cosine.var() == pytest.approx(2 * density[1] / n, rel=0.15)
 
 
 def test_reference_is_the_largest_force_of_the_campaign():

@@ -247,8 +247,8 @@ def test_runs_without_relations_are_said_so(reduced, hull) -> None:
     table = single_run_table(runs)
     assert set(table["run"]) == {"sway 0.12"}
     assert table.attrs["left_out"] == [
-        "both: no textbook relation for this sway_yaw run",
-        "sway 0.1: no textbook relation for this pure_sway run",
+        "1 sway_yaw run(s): no textbook relation",
+        "1 pure_sway run(s) with rudder, heel or bank: no textbook relation",
     ]
 
 

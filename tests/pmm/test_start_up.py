@@ -34,15 +34,15 @@ def test_an_oscillation_grows_from_rest_to_its_full_amplitude():
 
 def test_carriage_speed_is_the_integral_of_its_rate_and_travel_that_of_its_speed():
     laboratory = Laboratory(rest=2.0, ramp=5.0, duration=20.0)
-    t = np.linspace(0.0, 34.0, 34001)
+    t = np.linspace(0.0, 34.0, 3401)
     share, rate, travelled = carriage_profile(t, laboratory)
     step = t[1] - t[0]
 
     def integral(values):
         return np.concatenate([[0.0], np.cumsum((values[1:] + values[:-1]) / 2) * step])
 
-    assert share == pytest.approx(integral(rate), abs=1e-6)
-    assert travelled == pytest.approx(integral(share), abs=1e-6)
+    assert np.abs(share - integral(rate)).max() < 1e-5
+    assert np.abs(travelled - integral(share)).max() < 1e-5
 
 
 def test_carriage_rests_runs_and_rests():

@@ -58,7 +58,8 @@ def test_files_hold_the_records_bit_for_bit_in_si(tmp_path, hull, fmt, conventio
 def test_campaign_file_says_that_the_data_are_virtual_and_how_they_were_made(tmp_path, hull):
     source = replace(hull, name="DTMB twin", provenance=replace(hull.provenance, source="a paper, Table 3"))
     noise = Noise(ar1=0.02, gain_bias=0.01, seed=9)
-    path = synthesize(source, [TOW, YAW], tmp_path / "campaign", name="twin", noise=noise, laboratory=SHORT)
+    runs = [TOW, YAW, *standard_matrix("dtmb5512", hull.ship)[17:18]]
+    path = synthesize(source, runs, tmp_path / "campaign", name="twin", noise=noise, laboratory=SHORT)
     file = load_campaign_file(path)
     assert file.campaign.virtual
     assert "DTMB twin" in file.campaign.source
@@ -101,8 +102,9 @@ def test_fit_of_a_noise_free_campaign_finds_the_truth(tmp_path, hull, laboratory
 
 
 def test_a_clean_campaign_with_noise_and_transients_passes_the_audit(tmp_path, hull):
-    laboratory = replace(SHORT, rest=2.0, ramp=4.0, startup_cycles=1, balance_zero={"Y": 5.0})
-    matrix = standard_matrix("dtmb5512", hull.ship)
+    laboratory = Laboratory(cycles=3, rest=3.0, ramp=5.0, startup_cycles=1, balance_zero={"Y": 5.0})
+    hull = replace(hull, ship=replace(hull.ship, scale=46.6))
+    matrix = standard_matrix("dtmb5512", hull.ship)[::2]
     path = synthesize(
         hull, matrix, tmp_path / "campaign", name="twin", laboratory=laboratory, noise=Noise(ar1=0.02)
     )
@@ -170,11 +172,19 @@ def test_terms_of_the_fit_can_be_chosen(tmp_path, hull):
         path = synthesize(hull, [TOW], tmp_path / name, name="a", laboratory=SHORT, fit_terms=terms)
         return load_campaign_file(path).fit
 
+    # oblique towing excites no term with a yaw rate or an acceleration
+    assert fit("default", None).model == "mmg-drift"
     assert fit("model", "mmg-drift").model == "mmg-drift"
     assert fit("terms", ["Yv", "Nv"]).terms == ["Yv", "Nv"]
     with pytest.raises(TermError, match="'mgm'"):
         fit("wrong", "mgm")
     assert not (tmp_path / "wrong").exists()
+
+
+def test_runs_that_excite_no_term_make_no_campaign(tmp_path, hull):
+    with pytest.raises(CampaignError, match="no run excites"):
+        synthesize(hull.subset(["Yr", "Nr"]), [TOW], tmp_path / "campaign", name="a", laboratory=SHORT)
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_folder_in_use_is_kept(tmp_path, hull):

@@ -22,7 +22,14 @@ from towtank.pmm.reduction import ReductionPlan, reduce_run
 from towtank.pmm.rigid_body import RigidBody
 from towtank.pmm.run_types import Run
 from towtank.pmm.standard_matrices import standard_matrix
-from towtank.pmm.virtual_records import as_measured, synthesize_records, virtual_campaign, zero_run
+from towtank.pmm.virtual_records import (
+    as_measured,
+    excited_terms,
+    sets_by_depth,
+    synthesize_records,
+    virtual_campaign,
+    zero_run,
+)
 
 INSIDE = HOME.but(added_mass_coriolis="inside")
 SHORT = Laboratory(sampling_rate=10.0, duration=8.0, cycles=2)
@@ -204,7 +211,11 @@ def test_the_reduction_undoes_what_the_laboratory_does(hull, conventions, run):
         SHORT, conventions=conventions, inertia=BODY, balance_zero={"X": 1.0, "Y": -2.0, "N": 3.0}
     )
     settings = Reduction(
-        skip_cycles=0, position_x=laboratory.path_point(ship), moment_x=laboratory.moment_point(ship)
+        window="key-times",
+        start=0.0,
+        skip_cycles=0,
+        position_x=laboratory.path_point(ship),
+        moment_x=laboratory.moment_point(ship),
     )
     zero = zero_run(ship, laboratory, ("X", "Y", "N")).record(Noise(), {})
     sign = {"X": 1.0, "Y": 1.0, "N": 1.0}
@@ -281,3 +292,19 @@ def test_a_moment_cannot_be_moved_without_the_side_force(hull):
     moment = DerivativeSet.from_values("moment", hull.ship, {"Nv": -0.1}, INSIDE)
     with pytest.raises(ConventionError, match="needs Y"):
         record_of(moment, TOW, replace(SHORT, moment_x=0.2))
+
+
+def test_terms_that_no_run_excites_are_told_apart(hull):
+    def names(*runs):
+        return [term.name for term in excited_terms(sets_by_depth(hull), runs)]
+
+    assert names(TOW) == ["R0", "Xvv", "Xvvvv", "Yv", "Yvvv", "Nv", "Nvvv"]
+    assert names(Run("straight", "static_drift", 1.5)) == ["R0"]
+    assert "Yvdot" in names(SWAY)
+    assert not {"Yr", "Yvvr"} & set(names(SWAY))
+    assert "Yvvr" in names(TURN)
+    # a sailing forward along the path has no sway velocity, only yaw
+    pure = Run("yaw", "pure_yaw", 1.5, frequency=0.9, sway_amplitude=0.4)
+    assert {"Yr", "Yrrr", "Yrdot"} <= set(names(pure))
+    assert not {"Yv", "Yvdot", "Yvrr"} & set(names(pure))
+    assert set(names(TURN, SWAY, YAW)) == set(hull.names)

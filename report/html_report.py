@@ -1,0 +1,286 @@
+"""The report of a campaign: one self-contained HTML page."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from markupsafe import Markup
+
+from ..core.provenance import program_versions
+from ..core.ship import Ship
+from ..formats.write import atomic_path
+from ..pmm.campaign_result import CampaignResult
+from ..pmm.hull_fit import HullFit
+from .derivative_tables import (
+    candidates_table,
+    conventions_table,
+    derivative_table,
+    range_table,
+    three_ways_table,
+    units_text,
+    validity_table,
+)
+from .page_table import Table
+from .provenance_tables import choices_tables, findings_table, inputs_table, setting_text, versions_text
+from .run_tables import diagnostics_table, harmonics_table, remarks, runs_table
+from .typography import fixed, significant
+
+if TYPE_CHECKING:
+    from jinja2 import Template
+
+    from .report_figures import Drawing, Row
+
+HERE = Path(__file__).parent
+
+SECTIONS = {
+    "derivatives": "Derivatives",
+    "conventions": "Conventions",
+    "fits": "Fitted forces",
+    "residuals": "Residuals",
+    "series": "Time series",
+    "harmonics": "Harmonics",
+    "ways": "Three ways",
+    "models": "Models and ranges",
+    "diagnostics": "Diagnostics",
+    "runs": "Runs",
+    "findings": "Findings",
+    "choices": "Choices",
+    "provenance": "Provenance",
+}
+"""Anchor and heading of each section, in order."""
+
+
+@dataclass(frozen=True)
+class GroupPage:
+    """What the page shows of one group of runs."""
+
+    anchor: str
+    label: str
+    name: str
+    units: str
+    table: Table
+    forest: Drawing
+    conventions: Table
+    validity: Table
+    fits: tuple[Row, ...]
+    residuals: Row
+    agreement: Row
+    series: tuple[Row, ...]
+    harmonics: Table
+    ways: Table | None
+    left_out: tuple[str, ...]
+    candidates: Table | None
+    ranges: Table | None
+    diagnostics: Table
+    remarks: tuple[tuple[str, str, str], ...]
+    correlation: Drawing | None
+
+
+def render_report(
+    result: CampaignResult,
+    *,
+    created: datetime | None = None,
+    progress: Callable[[str, int, int], None] | None = None,
+) -> str:
+    """The report of a campaign as HTML.
+
+    Parameters
+    ----------
+    result : CampaignResult
+    created : datetime, optional
+        Time that the page carries; now when not given.
+    progress : callable, optional
+        ``progress(what, done, total)``.
+
+    Returns
+    -------
+    str
+        A page that needs nothing beside itself: style and drawings are inside.
+    """
+    groups = []
+    for number, fit in enumerate(result.fits):
+        if progress:
+            progress("drawing", number, len(result.fits))
+        groups.append(_group(result, fit, f"g{number + 1}"))
+    if progress:
+        progress("drawing", len(result.fits), len(result.fits))
+    moment = (created or datetime.now(UTC)).astimezone(UTC)
+    versions = program_versions()
+    chosen, defaults = choices_tables(result.settings)
+    provenance = result.fits[0].derivatives.provenance
+    page: dict[str, Any] = {
+        "campaign": result.campaign,
+        "created": moment.strftime("%Y-%m-%d %H:%M UTC"),
+        "css": Markup((HERE / "report.css").read_text(encoding="utf-8")),
+        "particulars": particulars([run.ship for run in result.runs]),
+        "facts": facts(result),
+        "groups": groups,
+        "runs": runs_table(result),
+        "findings": findings_table(result.findings),
+        "severities": _severities(result),
+        "chosen": chosen,
+        "defaults": defaults,
+        "steps": [step for step in provenance.choices.get("steps seen", [])],
+        "body": result.rigid_body.describe() if result.rigid_body else "",
+        "accepted": setting_text(provenance.choices.get("accepted rules", [])),
+        "inputs": inputs_table(provenance.inputs),
+        "versions": versions_text(versions),
+        "citation": citation(result, versions["towtank"], moment),
+        "file": result.path.name,
+        "Markup": Markup,
+    }
+    page["sections"] = _present(page)
+    return _template().render(page)
+
+
+def write_report(
+    result: CampaignResult,
+    path: str | Path,
+    *,
+    created: datetime | None = None,
+    progress: Callable[[str, int, int], None] | None = None,
+) -> Path:
+    """Write the report of a campaign to `path`; see :func:`render_report`.
+
+    The page appears when it is complete; an interrupted call leaves the old one or none.
+    """
+    target = Path(path)
+    text = render_report(result, created=created, progress=progress)
+    with atomic_path(target) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+    return target
+
+
+@cache
+def _template() -> Template:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    environment = Environment(
+        loader=FileSystemLoader(HERE),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=StrictUndefined,
+    )
+    return environment.get_template("report.html.j2")
+
+
+def _group(result: CampaignResult, fit: HullFit, anchor: str) -> GroupPage:
+    # drawing needs matplotlib, which the command line must not load at its start
+    from .report_figures import Draughtsman
+
+    written = result.written(fit)
+    ways = result.comparison("three ways", fit.label)
+    candidates = result.comparison("candidates", fit.label)
+    ranges = result.comparison("range", fit.label)
+    draw = Draughtsman(fit, written, anchor)
+    left_out: list[str] = []
+    if ways is not None:
+        left_out = [*ways.attrs.get("single_run_left_out", []), *ways.attrs.get("multiple_run_left_out", [])]
+    return GroupPage(
+        anchor=anchor,
+        label=fit.label,
+        name=written.name,
+        units=units_text(written),
+        table=derivative_table(fit, written, result.settings.fit.shared_bias),
+        forest=draw.forest(ways),
+        conventions=conventions_table(written),
+        validity=validity_table(written),
+        fits=tuple(draw.force_fits()),
+        residuals=draw.residuals(),
+        agreement=draw.agreement(),
+        series=tuple(draw.series()),
+        harmonics=harmonics_table(fit),
+        ways=None if ways is None else three_ways_table(ways, fit.derivatives),
+        left_out=tuple(left_out),
+        candidates=None if candidates is None else candidates_table(candidates),
+        ranges=None if ranges is None else range_table(ranges, fit.derivatives),
+        diagnostics=diagnostics_table(fit),
+        remarks=tuple(remarks(fit)),
+        correlation=draw.correlation() if written.covariance is not None else None,
+    )
+
+
+def _present(page: dict[str, Any]) -> dict[str, str]:
+    """The sections that have something to show."""
+    groups: list[GroupPage] = page["groups"]
+    empty = {
+        "series": not any(group.series for group in groups),
+        "harmonics": not any(group.harmonics.rows for group in groups),
+        "ways": not any(group.ways for group in groups),
+        "models": not any(group.candidates or group.ranges for group in groups),
+    }
+    return {anchor: title for anchor, title in SECTIONS.items() if not empty.get(anchor, False)}
+
+
+def particulars(ships: Sequence[Ship]) -> list[tuple[str, str, str]]:
+    """Particulars of the ship of some runs as (name, value, unit); `ships` differ in water depth alone."""
+    ship = ships[0]
+    scale = "full scale" if ship.scale == 1 else f"1:{ship.scale:g}"
+    rows = [("Ship", ship.name, ""), ("Scale", scale, "")]
+    numbers: list[tuple[str, float | None, str]] = [
+        ("Length L", ship.L, "m"),
+        ("Breadth B", ship.B, "m"),
+        ("Draught T", ship.T, "m"),
+        ("Mass", ship.displacement_mass, "kg"),
+        ("Centre of gravity xG", ship.xG, "m"),
+        ("Yaw inertia Izz", ship.yaw_inertia, "kg m²"),
+        ("Water density ρ", ship.rho, "kg/m³"),
+    ]
+    rows += [(name, significant(value, 4), unit) for name, value, unit in numbers if value is not None]
+    ratios = sorted({ship.depth_ratio for ship in ships})
+    depths = ", ".join("deep" if math.isinf(ratio) else f"{ratio:.3g}" for ratio in ratios)
+    return [*rows, ("Depth over draught h/T", depths, "")]
+
+
+def facts(result: CampaignResult) -> list[tuple[str, str, str]]:
+    """What the campaign amounts to, as (what, number, detail)."""
+    kinds = Counter(run.run.kind.replace("_", " ") for run in result.runs)
+    detail = ", ".join(f"{count} {kind}" for kind, count in kinds.most_common())
+    rows = [("runs", str(len(result.runs)), detail)]
+    count = sum(len(fit.derivatives) for fit in result.fits)
+    sets = f"in {len(result.fits)} sets" if len(result.fits) > 1 else "in one set"
+    rows.append(("derivatives", str(count), sets))
+    low: dict[str, float] = {}
+    for fit in result.fits:
+        for component in fit.components:
+            value = fit.derivatives.diagnostics.get(component, {}).get("R2")
+            if value is not None:
+                low[component] = min(low.get(component, 1.0), value)
+    if low:
+        detail = ", ".join(f"{component} {fixed(value, 4)}" for component, value in low.items())
+        rows.append(("lowest R²", fixed(min(low.values()), 4), detail))
+    counts = _severities(result)
+    detail = ", ".join(f"{number} {name}" for name, number in counts.items()) or "the audit found nothing to report"
+    rows.append(("findings", str(sum(counts.values())), detail))
+    return rows
+
+
+def _severities(result: CampaignResult) -> dict[str, int]:
+    counts = Counter(
+        f"{finding.severity} (accepted)" if finding.accepted else finding.severity for finding in result.findings
+    )
+    return dict(sorted(counts.items()))
+
+
+def citation(result: CampaignResult, version: str, created: datetime) -> str:
+    """How to cite the derivatives of this report."""
+    source = result.campaign.source.rstrip(". ")
+    digest = result.fits[0].derivatives.provenance.inputs.get(result.path.name, "")
+    text = f"{result.campaign.name}: hydrodynamic derivatives identified with towtank {version}, {created:%Y-%m-%d}"
+    if digest:
+        text += f", campaign file sha256 {digest[:16]}"
+    return f"{text}. Data: {source}." if source else f"{text}."
+
+
+def slug(label: str) -> str:
+    """A label as part of a file name: lower case, words joined by hyphens."""
+    return re.sub(r"[^a-z0-9.]+", "-", label.lower().replace("/", "")).strip("-.") or "all"

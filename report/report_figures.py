@@ -1,0 +1,152 @@
+"""The drawings of the report: every figure of a group of runs as inline SVG with its caption."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING
+
+from matplotlib.axes import Axes
+
+from ..core.derivative_set import DerivativeSet
+from ..pmm.hull_fit import HullFit
+from .derivative_figures import correlation_map, derivative_forest
+from .figure_style import Sheet, inline_svg
+from .force_curves import sweeps
+from .force_figures import amplitude_fit, force_fit
+from .residual_figures import measured_against_fitted, residuals_by_run
+from .series_figures import time_series
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+RUNS_OF_A_KIND = 2
+"""Runs of one kind and different amplitudes from which harmonics are drawn against amplitude."""
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """One figure of the page: its SVG, and the line below it (empty for none)."""
+
+    svg: str
+    caption: str = ""
+
+
+@dataclass(frozen=True)
+class Row:
+    """Drawings that belong together, e.g. the components of one run, and the line below them."""
+
+    title: str
+    drawings: tuple[Drawing, ...]
+    caption: str = ""
+
+
+class Draughtsman:
+    """Draws the figures of one group; panels of equal size share one sheet.
+
+    Parameters
+    ----------
+    fit : HullFit
+    written : DerivativeSet
+        The set in the conventions of the output.
+    prefix : str
+        Unique in the page, e.g. ``g1``.
+    """
+
+    def __init__(self, fit: HullFit, written: DerivativeSet, prefix: str) -> None:
+        self.fit = fit
+        self.written = written
+        self._prefix = prefix
+        self._sheet = Sheet()
+        self._count = 0
+
+    def _panels(self, text: str, draw: Callable[..., Axes], components: Iterable[str]) -> tuple[Drawing, ...]:
+        """One panel a component; `text` says what they show to readers who do not see them."""
+        panels = []
+        for component in components:
+            self._count += 1
+            draw(component, ax=self._sheet.fresh())
+            panels.append(Drawing(self._sheet.svg(f"{self._prefix}-{self._count}", f"{component}: {text}")))
+        return tuple(panels)
+
+    def _large(self, caption: str, ax: Axes) -> Drawing:
+        self._count += 1
+        return Drawing(inline_svg(ax.get_figure(root=True), f"{self._prefix}-{self._count}", caption), caption)
+
+    def force_fits(self) -> Iterator[Row]:
+        """Forces against drift angle, yaw rate, ... of steady runs, and harmonics against amplitude."""
+        for sweep in sweeps(self.fit):
+            name = sweep.label.split(" [")[0]
+            yield Row(
+                f"Steady runs against {name}",
+                self._panels(f"force against {name}", partial(force_fit, self.fit, sweep), self.fit.components),
+                "Points: measured, with bars of 95 %. Lines: fitted, with their 95 % band.",
+            )
+        for kind in self._oscillating_kinds():
+            name = kind.replace("_", " ")
+            excited = [
+                component
+                for component, result in self.fit.components.items()
+                if any(self.fit.runs[index].run.kind == kind for index in result.rows.run.tolist())
+            ]
+            yield Row(
+                f"Harmonics of {name} runs against amplitude",
+                self._panels(f"harmonics against amplitude, {name}", partial(amplitude_fit, self.fit, kind), excited),
+                "Filled: measured, with bars of 95 %. Open and joined: fitted. The largest harmonics of each force.",
+            )
+
+    def _oscillating_kinds(self) -> list[str]:
+        amplitudes: dict[str, set[tuple[float, float, float]]] = {}
+        for run in self.fit.runs:
+            if run.order and not run.run.drift_angle:
+                test = run.run
+                size = (test.sway_amplitude, test.yaw_amplitude, test.surge_amplitude)
+                amplitudes.setdefault(test.kind, set()).add(size)
+        return [kind for kind, sizes in amplitudes.items() if len(sizes) >= RUNS_OF_A_KIND]
+
+    def residuals(self) -> Row:
+        """Standardised residuals run by run."""
+        return Row(
+            "Residuals by run",
+            self._panels("standardised residuals by run", partial(residuals_by_run, self.fit), self.fit.components),
+            "Residuals over the standard deviation of their row. Shaded: ± 2. The numbers are those of the table of runs.",
+        )
+
+    def agreement(self) -> Row:
+        """Measured against fitted means and harmonics."""
+        return Row(
+            "Measured against fitted",
+            self._panels(
+                "measured against fitted values", partial(measured_against_fitted, self.fit), self.fit.components
+            ),
+            "Means and harmonics of all runs with bars of 95 %; the line is equality.",
+        )
+
+    def series(self) -> Iterator[Row]:
+        """Measured and reconstructed series of the runs that kept theirs."""
+        for run in self.fit.runs:
+            shown = [component for component in self.fit.components if component in run.series]
+            if shown:
+                yield Row(
+                    f"{run.name} ({run.run.kind.replace('_', ' ')})",
+                    self._panels(
+                        f"time series of run {run.name}, measured and fitted",
+                        partial(time_series, self.fit, run),
+                        shown,
+                    ),
+                )
+
+    def forest(self, ways: pd.DataFrame | None) -> Drawing:
+        """Intervals of all derivatives."""
+        caption = (
+            "95 % interval of each derivative in per cent of its value; an arrow where it leaves the figure."
+        )
+        if ways is not None:
+            caption += " Beside it the estimates from single runs and from multiple-run curves, where they lie inside."
+        return self._large(caption, derivative_forest(self.written, ways))
+
+    def correlation(self) -> Drawing:
+        """Correlation of all derivatives."""
+        caption = "Correlation between the derivatives: orange positive, violet negative; above 0.9 in per cent."
+        return self._large(caption, correlation_map(self.written))
