@@ -167,9 +167,10 @@ def _inertia(slopes: LinearSlopes, yardstick: _Yardstick, ship: Ship, inside: bo
     seen = []
     scatter = _SCATTER * (2.0 if yardstick.shallow else 1.0)
     yaw = slopes.yaw_added_inertia if abs(slopes.yaw_damping or 0.0) > 0.1 * abs(yardstick.Nr) else None
+    mass, inertia = _own(mass_coefficient, ship), _own(yaw_inertia_coefficient, ship)
     for name, slope, added, own in (
-        ("sway", slopes.sway_added_mass, yardstick.sway_added_mass, _own(mass_coefficient, ship)),
-        ("yaw", yaw, yardstick.yaw_added_inertia, _own(yaw_inertia_coefficient, ship)),
+        ("sway", slopes.sway_added_mass, yardstick.sway_added_mass, mass),
+        ("yaw", yaw, yardstick.yaw_added_inertia, inertia),
     ):
         if slope is None or own is None or abs(slope) < _NOTHING * added:
             continue
@@ -180,15 +181,13 @@ def _inertia(slopes: LinearSlopes, yardstick: _Yardstick, ship: Ship, inside: bo
     if not seen or best == 0 or evidence[best] - evidence[0] < _SURE:
         return []
     odds = math.exp(min(evidence[best] - evidence[0], 20.0))
-    known = f"inertia over 0.5 rho L^2 T ({'; '.join(seen)}); odds {odds:.2g} to 1"
+    known = f"over 0.5 rho L^2 T and L^4 T ({'; '.join(seen)}); odds {odds:.2g} to 1"
     if best == 1:
         state = "although inertia was subtracted" if inside else "and inertia.inside is false"
-        return [
-            finding("inertia-inside", f"the acceleration slopes hold the model's own inertia, {state}: {known}")
-        ]
+        return [finding("inertia-inside", f"the forces hold the model's own inertia, {state}: {known}")]
     state = "was subtracted" if inside else "is missing"
     return [
-        finding("inertia-outside", f"the acceleration slopes lack the model's own inertia, which {state}: {known}")
+        finding("inertia-outside", f"the forces lack the inertia of the model's own mass, which {state}: {known}")
     ]
 
 

@@ -93,7 +93,7 @@ def force_rows(runs: Sequence[ReducedRun], terms: Sequence[Term], component: str
         )
     design, response, sd, run_index, harmonic, dof = (np.concatenate(part) for part in zip(*blocks, strict=True))
     size = np.abs(design).max(axis=0, initial=0.0)
-    active = (np.abs(design) > 1e-9 * np.where(size > 0, size, 1.0)).any(axis=1)
+    active = (np.abs(design) > np.maximum(1e-9 * size, _ROUNDING)).any(axis=1)
     rows = ForceRows(component, own, design, response, sd, run_index, harmonic).only(active)
     sd = _moderated_sd(rows, runs, dof[active])
     return ForceRows(component, own, rows.design, rows.response, sd, rows.run, rows.harmonic)

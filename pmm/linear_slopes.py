@@ -111,11 +111,11 @@ def _spread(runs: Sequence[RunSummary]) -> float:
     return max(angles) - min(angles) if angles else 0.0
 
 
-def _slope(sway: np.ndarray, force: np.ndarray) -> float | None:
+def _slope(motion: np.ndarray, force: np.ndarray) -> float | None:
     """Slope about the mean, so that a zero error does not matter; None when there is no clear one."""
-    if len(sway) < 2 or not np.isfinite(force).all():
+    if len(motion) < 2 or not np.isfinite(force).all():
         return None
-    v, f = sway - sway.mean(), force - force.mean()
+    v, f = motion - motion.mean(), force - force.mean()
     size, strength = float(v @ v), float(f @ f)
     if size < math.sin(_SMALLEST_DRIFT) ** 2 / 2 or strength == 0.0:
         return None

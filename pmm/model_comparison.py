@@ -255,12 +255,13 @@ def _refit(
         if not own:
             continue
         data = force_rows(runs, own, component)
-        used = [term for term, moved in zip(own, data.excited, strict=True) if moved]
-        if not used:
+        excited = np.flatnonzero(data.excited).tolist()
+        if not excited:
             continue
+        used = [own[i] for i in excited]
         try:
             stages = default_stages(used) if settings.staged else None
-            fit = fit_component(force_rows(runs, used, component), settings, stages)
+            fit = fit_component(data.only(np.arange(len(data.response)), excited), settings, stages)
         except FitError as error:
             results |= {term.name: (math.nan, math.nan, error.cause) for term in used}
             continue

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -280,7 +279,3 @@ def citation(result: CampaignResult, version: str, created: datetime) -> str:
         text += f", campaign file sha256 {digest[:16]}"
     return f"{text}. Data: {source}." if source else f"{text}."
 
-
-def slug(label: str) -> str:
-    """A label as part of a file name: lower case, words joined by hyphens."""
-    return re.sub(r"[^a-z0-9.]+", "-", label.lower().replace("/", "")).strip("-.") or "all"

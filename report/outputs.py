@@ -1,0 +1,203 @@
+"""The folder of results of a campaign: tables, sets, provenance, report; complete or not at all."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import secrets
+import shutil
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..core.errors import TowtankError
+from ..core.provenance import program_versions
+from ..pmm.campaign_result import CampaignResult
+from .set_table import SETS_FORMAT
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Progress = Callable[[str, int, int], None]
+
+PROVENANCE_FORMAT = "towtank provenance 1"
+
+COMPARISONS = {"three ways": "three-ways.csv", "candidates": "candidates.csv", "range": "range.csv"}
+"""Kind of comparison and the file that its tables go to."""
+
+_OURS = re.compile(
+    r"derivatives(-[^/]+)?\.json|(derivatives|harmonics|runs|findings|three-ways|candidates|range)\.csv"
+    r"|provenance\.json|report\.html"
+)
+
+
+def write_results(
+    result: CampaignResult, out: str | Path, *, report: bool | None = None, progress: Progress | None = None
+) -> list[Path]:
+    """Write everything that a campaign yields.
+
+    Files are ``derivatives.csv`` (name, value, std, lower95, upper95, scaling; with several groups also group),
+    ``derivatives.json`` (the set; with several groups all of them by label, and ``derivatives-<group>.json`` for each),
+    ``harmonics.csv``, ``runs.csv``, ``findings.csv``, the comparisons that were made (``three-ways.csv``,
+    ``candidates.csv``, ``range.csv``), ``provenance.json`` and ``report.html``. Numbers have all their digits.
+
+    Everything is made in a folder beside `out` first. A new folder then appears at once; in an existing one file after
+    file is replaced, and files of an earlier result that this one does not have are removed. Until then the old result
+    stays.
+
+    Parameters
+    ----------
+    result : CampaignResult
+    out : str or Path
+        Folder of the results; made when it is missing.
+    report : bool, optional
+        Write ``report.html``; as the campaign file says when not given.
+    progress : callable, optional
+        ``progress(what, done, total)``.
+
+    Returns
+    -------
+    list of Path
+        The files, in the order above.
+
+    Raises
+    ------
+    TowtankError
+        When `out` is a file or cannot be written to.
+    """
+    out = Path(out)
+    if out.exists() and not out.is_dir():
+        raise TowtankError("this is a file", cure="give a folder for the results", file=out)
+    wanted = result.settings.output.report if report is None else report
+    writers = _writers(result, wanted, progress)
+    with _beside(out) as folder:
+        for number, (name, write) in enumerate(writers):
+            if progress:
+                progress("writing", number, len(writers))
+            write(folder / name)
+        if progress:
+            progress("writing", len(writers), len(writers))
+        names = [name for name, _ in writers]
+        _publish(folder, out, names)
+    return [out / name for name in names]
+
+
+Writer = Callable[[Path], Any]
+
+
+def _writers(result: CampaignResult, report: bool, progress: Progress | None) -> list[tuple[str, Writer]]:
+    """Names of the files and what writes each."""
+    writers: list[tuple[str, Writer]] = [("derivatives.csv", _csv(result.derivatives_frame)), *_sets(result)]
+    writers += [
+        ("harmonics.csv", _csv(result.harmonics_frame)),
+        ("runs.csv", _csv(result.runs_frame)),
+        ("findings.csv", _csv(result.findings_frame)),
+    ]
+    for kind, name in COMPARISONS.items():
+        frame = comparison_frame(result, kind)
+        if frame is not None:
+            writers.append((name, lambda path, frame=frame: frame.to_csv(path, index=False)))
+    writers.append(("provenance.json", lambda path: _json(provenance(result), path)))
+    if report:
+        from .html_report import write_report
+
+        writers.append(("report.html", lambda path: write_report(result, path, progress=progress)))
+    return writers
+
+
+def _csv(frame: Callable[[], pd.DataFrame]) -> Writer:
+    # pandas writes the shortest text that reads back as the same number
+    return lambda path: frame().to_csv(path, index=False)
+
+
+def _json(data: Any, path: Path) -> None:
+    path.write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def _sets(result: CampaignResult) -> list[tuple[str, Writer]]:
+    sets = result.sets()
+    if len(sets) == 1:
+        (only,) = sets.values()
+        return [("derivatives.json", only.to_json)]
+    together = {"format": SETS_FORMAT, "sets": {label: one.to_dict() for label, one in sets.items()}}
+    files: list[tuple[str, Writer]] = [("derivatives.json", lambda path: _json(together, path))]
+    names = group_names(list(sets))
+    files += [(f"derivatives-{names[label]}.json", one.to_json) for label, one in sets.items()]
+    return files
+
+
+def group_names(labels: list[str]) -> dict[str, str]:
+    """Labels of groups as parts of file names, no two alike."""
+    names: dict[str, str] = {}
+    for label in labels:
+        name = re.sub(r"[^a-z0-9.]+", "-", label.lower().replace("/", "")).strip("-.") or "all"
+        names[label] = name if name not in names.values() else f"{name}-{len(names) + 1}"
+    return names
+
+
+def comparison_frame(result: CampaignResult, kind: str) -> pd.DataFrame | None:
+    """Table of one kind of comparison over all groups, or None; with a column group when there are several."""
+    import pandas as pd
+
+    frames = []
+    for fit in result.fits:
+        frame = result.comparison(kind, fit.label)
+        if frame is not None:
+            frames.append(frame.assign(group=fit.label) if len(result.fits) > 1 else frame)
+    for frame in frames:
+        frame.attrs = {}  # pandas compares them when it joins tables
+    return pd.concat(frames, ignore_index=True) if frames else None
+
+
+def provenance(result: CampaignResult, created: datetime | None = None) -> dict[str, Any]:
+    """Where the results come from, as plain data: campaign, files, choices, findings, versions."""
+    moment = (created or datetime.now(UTC)).astimezone(UTC)
+    return {
+        "format": PROVENANCE_FORMAT,
+        "created": moment.isoformat(timespec="seconds"),
+        "campaign": result.campaign.model_dump(),
+        "campaign_file": result.path.name,
+        "versions": program_versions(),
+        "rigid_body": result.rigid_body.describe() if result.rigid_body else None,
+        "runs": len(result.runs),
+        "groups": [
+            {"label": label, "name": one.name, "provenance": one.to_dict()["provenance"]}
+            for label, one in result.sets().items()
+        ],
+    }
+
+
+@contextmanager
+def _beside(out: Path) -> Iterator[Path]:
+    """A temporary folder beside `out`, on the same disk, gone at the end."""
+    folder = out.absolute().with_name(f".{out.absolute().name}.{secrets.token_hex(4)}")
+    try:
+        folder.mkdir(parents=True)
+    except OSError as error:
+        raise TowtankError(
+            f"the folder cannot be written to: {error.strerror}", cure="give another folder", file=out
+        ) from None
+    try:
+        yield folder
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _publish(folder: Path, out: Path, names: list[str]) -> None:
+    """Move the files of `folder` to `out`."""
+    try:
+        if not out.exists():
+            os.replace(folder, out)
+            return
+        for name in names:
+            os.replace(folder / name, out / name)
+        for old in out.iterdir():
+            if old.is_file() and old.name not in names and _OURS.fullmatch(old.name):
+                old.unlink()
+    except OSError as error:
+        raise TowtankError(
+            f"the results cannot be moved there: {error.strerror}", cure="close files that are open there", file=out
+        ) from None
