@@ -19,6 +19,7 @@ def iter_records(
     read_one: Callable[[Item], Result],
     *,
     workers: int = 2,
+    processes: bool = False,
     progress: Callable[[int, int], None] | None = None,
 ) -> Iterator[Result]:
     """Results of ``read_one(path)`` in the order of `paths`.
@@ -35,6 +36,9 @@ def iter_records(
         Reads one of them.
     workers : int
         Threads; with 1 or less the runs are read in the calling thread.
+    processes : bool
+        Use processes in place of threads: worth their start when there are hundreds of runs. `read_one` and its
+        results must then be picklable.
     progress : callable, optional
         Called as ``progress(done, total)`` after each run that is handed out.
 
@@ -50,7 +54,12 @@ def iter_records(
         :class:`ReadError` that names the file.
     """
     items = list(paths)
-    results = _in_turn(items, read_one) if workers <= 1 else _ahead(items, read_one, workers)
+    if workers <= 1:
+        results = _in_turn(items, read_one)
+    elif processes:
+        results = _in_processes(items, read_one, workers)
+    else:
+        results = _ahead(items, read_one, workers)
     with closing(results):
         for done, result in enumerate(results, start=1):
             if progress is not None:
@@ -77,6 +86,15 @@ def _ahead(items: list[Item], read_one: Callable[[Item], Result], workers: int) 
             yield waiting.popleft().result()
     finally:
         pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _in_processes(
+    items: list[Item], read_one: Callable[[Item], Result], workers: int
+) -> Generator[Result, None, None]:
+    from joblib import Parallel, delayed
+
+    pool = Parallel(n_jobs=workers, return_as="generator", batch_size=8, pre_dispatch="3 * n_jobs")
+    yield from pool(delayed(_read)(read_one, item) for item in items)
 
 
 def _read(read_one: Callable[[Item], Result], item: Item) -> Result:

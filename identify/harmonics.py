@@ -170,6 +170,7 @@ def fit_harmonics(
     order: int = 3,
     phase: float = 0.0,
     detrend: bool = False,
+    projector: HarmonicProjector | None = None,
 ) -> HarmonicFit:
     """Fit mean and harmonics 1..order by least squares.
 
@@ -187,6 +188,8 @@ def fit_harmonics(
         Phase of the motion at t = 0, rad: with a motion V cos(omega t + phase) the cosine is in phase with it.
     detrend : bool
         Fit a straight line together with the harmonics.
+    projector : HarmonicProjector, optional
+        That of the same `t`, `omega`, `order`, `phase` and trend, when it is there already.
 
     Returns
     -------
@@ -200,7 +203,8 @@ def fit_harmonics(
     time = np.asarray(t, dtype=float)
     channels = np.asarray(y, dtype=float)
     frequency = FrequencyEstimate(float(omega), 0.0) if omega else find_frequency(time, channels, order)
-    projector = HarmonicProjector(time, frequency.omega, order, phase=phase, trend=detrend)
+    if projector is None:
+        projector = HarmonicProjector(time, frequency.omega, order, phase=phase, trend=detrend)
     single = channels.ndim == 1
     columns = channels[:, None] if single else channels
     solution = projector.project(columns)

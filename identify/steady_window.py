@@ -231,7 +231,8 @@ def _marginal_ends(channels: np.ndarray) -> tuple[int, int]:
     middle = np.median(means, axis=0)
     scatter = 1.4826 * np.median(np.abs(means - middle), axis=0)
     scatter = np.where(scatter > 0.0, scatter, means.std(axis=0))
-    moving = scatter > 0.0
+    # Rounding of a constant channel is not scatter.
+    moving = scatter > 1e-10 * np.abs(means).max(axis=0)
     if not moving.any():
         return 0, n
     z = (means[:, moving] - middle[moving]) / scatter[moving]

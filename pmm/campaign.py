@@ -36,6 +36,9 @@ from .run_summary import run_summary
 from .run_types import Run
 from .test_matrix import expand_runs
 
+_BYTES_WORTH_PROCESSES = 200e6
+"""Campaigns with more bytes are read in processes, which start slowly but share no interpreter lock."""
+
 Progress = Callable[[str, int, int], None]
 """Called with what is being done, how many are done, how many there are."""
 
@@ -178,7 +181,8 @@ class Campaign:
         reduced: list[ReducedRun] = []
         work = partial(self._read_and_reduce, plan=plan, waived=waived)
         report = partial(progress, "reading runs") if progress else None
-        for result in iter_records(wet, work, workers=workers, progress=report):
+        many = sum(run.file.stat().st_size for run in wet if run.file) > _BYTES_WORTH_PROCESSES
+        for result in iter_records(wet, work, workers=workers, processes=many, progress=report):
             digests[str(result.run.file.name if result.run.file else result.name)] = result.sha256
             reduced.append(result)
         if self.file.points is not None:

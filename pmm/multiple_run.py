@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -145,6 +145,7 @@ class _Test:
 
     run: ReducedRun
     motion: SinusoidMotion | None
+    known: dict[Term, np.ndarray] = field(default_factory=dict)
 
     @property
     def kind(self) -> str:
@@ -169,7 +170,10 @@ class _Test:
         """Textbook columns of `terms` at the mean or a harmonic, shape (p,)."""
         if self.motion is None:
             return self.run.design(terms)[row]
-        return np.array([self.motion.column(term, self.run.order)[row] for term in terms])
+        for term in terms:
+            if term not in self.known:
+                self.known[term] = self.motion.column(term, self.run.order)
+        return np.array([self.known[term][row] for term in terms])
 
 
 def _motion(run: ReducedRun, left_out: list[str]) -> SinusoidMotion | None:

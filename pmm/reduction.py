@@ -306,10 +306,11 @@ def _harmonics(
 ) -> _Coefficients:
     names = list(forces)
     times = window.times
-    fit = fit_harmonics(times, np.column_stack([scaled[name] for name in names]), omega=omega, order=order)
     projector = HarmonicProjector(times, omega, order)
-    # Residuals in N: those of the scaled force times the mean of its unit, which varies by a few per cent.
+    responses = np.column_stack([scaled[name] for name in names])
+    fit = fit_harmonics(times, responses, omega=omega, order=order, projector=projector)
     dimensional = projector.project(np.column_stack([forces[name] for name in names]))
+    # Residuals in N: those of the scaled force times the mean of its unit, which varies by a few per cent.
     unit = [
         float(np.mean(forces[name] * scaled[name]) / max(np.mean(scaled[name] ** 2), 1e-300)) for name in names
     ]

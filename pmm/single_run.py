@@ -144,8 +144,8 @@ def _yaw_with_drift(
     run: ReducedRun, motion: SinusoidMotion, companions: Sequence[ReducedRun]
 ) -> dict[str, Estimate]:
     estimates: dict[str, Estimate] = {}
-    pure_yaw = next((other for other in companions if _same_yaw(other, run, motion)), None)
-    drift = next((other for other in companions if _same_drift(other, run, motion)), None)
+    pure_yaw = next((other for other in companions if _same_yaw(other, run)), None)
+    drift = next((other for other in companions if _same_drift(other, run)), None)
     for component in LATERAL:
         if component not in run.scaled:
             continue
@@ -175,27 +175,24 @@ def _quotient(value: float, sd: float, divisor: float) -> Estimate:
     return Estimate(float(value / divisor), float(sd / abs(divisor)))
 
 
-def _same_test(other: ReducedRun, run: ReducedRun) -> bool:
+def _same_test(other: ReducedRun, run: ReducedRun, *parameters: str) -> bool:
+    """True when two runs agree in speed, depth and the `parameters` of the test matrix, and `other` is level."""
+    mine, theirs = run.run, other.run
     return (
-        conditions_are_zero(other)
+        all(math.isclose(getattr(mine, p), getattr(theirs, p), rel_tol=_SAME) for p in ("speed", *parameters))
         and other.ship.depth == run.ship.depth
-        and math.isclose(other.motion.speed, run.motion.speed, rel_tol=_SAME)
+        and conditions_are_zero(other)
     )
 
 
-def _same_yaw(other: ReducedRun, run: ReducedRun, motion: SinusoidMotion) -> bool:
-    if other.run.kind not in ("pure_yaw", "yaw_drift") or other.run.drift_angle or not _same_test(other, run):
-        return False
-    theirs = sinusoid_motion(other)
-    return math.isclose(theirs.amplitude, motion.amplitude, rel_tol=_SAME) and math.isclose(
-        theirs.frequency, motion.frequency, rel_tol=_SAME
-    )
+def _same_yaw(other: ReducedRun, run: ReducedRun) -> bool:
+    kinds = ("pure_yaw", "yaw_drift")
+    level = other.run.kind in kinds and not other.run.drift_angle and other.order >= 1
+    return level and _same_test(other, run, "frequency", "sway_amplitude")
 
 
-def _same_drift(other: ReducedRun, run: ReducedRun, motion: SinusoidMotion) -> bool:
-    if other.run.kind != "static_drift" or not _same_test(other, run):
-        return False
-    return math.isclose(-math.sin(other.motion.heading.constant), motion.drift, rel_tol=_SAME)
+def _same_drift(other: ReducedRun, run: ReducedRun) -> bool:
+    return other.run.kind == "static_drift" and _same_test(other, run, "drift_angle")
 
 
 def single_run_table(runs: Sequence[ReducedRun], *, form: Form = "cubic") -> pd.DataFrame:

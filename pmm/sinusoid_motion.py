@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -108,6 +109,7 @@ class SinusoidMotion:
         return turned, spread
 
 
+@cache
 def cosine_harmonic(power: int, modulus: int, k: int) -> float:
     """Coefficient of cos k a in ``cos(a)**power * abs(cos a)**modulus`` (the mean for k = 0).
 

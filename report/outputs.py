@@ -23,16 +23,10 @@ if TYPE_CHECKING:
 
 Progress = Callable[[str, int, int], None]
 
-PROVENANCE_FORMAT = "towtank provenance 1"
+PROVENANCE, PROVENANCE_FORMAT = "provenance.json", "towtank provenance 1"
 
 COMPARISONS = {"three ways": "three-ways.csv", "candidates": "candidates.csv", "range": "range.csv"}
 """Kind of comparison and the file that its tables go to."""
-
-_OURS = re.compile(
-    r"derivatives(-[^/]+)?\.json|(derivatives|harmonics|runs|findings|three-ways|candidates|range)\.csv"
-    r"|provenance\.json|report\.html"
-)
-
 
 def write_results(
     result: CampaignResult, out: str | Path, *, report: bool | None = None, progress: Progress | None = None
@@ -42,11 +36,11 @@ def write_results(
     Files are ``derivatives.csv`` (name, value, std, lower95, upper95, scaling; with several groups also group),
     ``derivatives.json`` (the set; with several groups all of them by label, and ``derivatives-<group>.json`` for each),
     ``harmonics.csv``, ``runs.csv``, ``findings.csv``, the comparisons that were made (``three-ways.csv``,
-    ``candidates.csv``, ``range.csv``), ``provenance.json`` and ``report.html``. Numbers have all their digits.
+    ``candidates.csv``, ``range.csv``), ``report.html`` and ``provenance.json``. Numbers have all their digits.
 
     Everything is made in a folder beside `out` first. A new folder then appears at once; in an existing one file after
-    file is replaced, and files of an earlier result that this one does not have are removed. Until then the old result
-    stays.
+    file is replaced, and files that its provenance.json lists and this result does not have are removed. Until then the
+    old result stays.
 
     Parameters
     ----------
@@ -100,11 +94,12 @@ def _writers(result: CampaignResult, report: bool, progress: Progress | None) ->
         frame = comparison_frame(result, kind)
         if frame is not None:
             writers.append((name, lambda path, frame=frame: frame.to_csv(path, index=False)))
-    writers.append(("provenance.json", lambda path: _json(provenance(result), path)))
     if report:
         from .html_report import write_report
 
         writers.append(("report.html", lambda path: write_report(result, path, progress=progress)))
+    names = [name for name, _ in writers]
+    writers.append((PROVENANCE, lambda path: _json(provenance(result) | {"files": [*names, PROVENANCE]}, path)))
     return writers
 
 
@@ -146,9 +141,8 @@ def comparison_frame(result: CampaignResult, kind: str) -> pd.DataFrame | None:
     for fit in result.fits:
         frame = result.comparison(kind, fit.label)
         if frame is not None:
-            frames.append(frame.assign(group=fit.label) if len(result.fits) > 1 else frame)
-    for frame in frames:
-        frame.attrs = {}  # pandas compares them when it joins tables
+            frames.append(frame.assign(group=fit.label) if len(result.fits) > 1 else frame.copy())
+            frames[-1].attrs = {}  # pandas compares them when it joins tables
     return pd.concat(frames, ignore_index=True) if frames else None
 
 
@@ -192,12 +186,23 @@ def _publish(folder: Path, out: Path, names: list[str]) -> None:
         if not out.exists():
             os.replace(folder, out)
             return
+        stale = set(_listed(out)) - set(names)
         for name in names:
             os.replace(folder / name, out / name)
-        for old in out.iterdir():
-            if old.is_file() and old.name not in names and _OURS.fullmatch(old.name):
-                old.unlink()
+        for name in stale:
+            (out / name).unlink(missing_ok=True)
     except OSError as error:
         raise TowtankError(
             f"the results cannot be moved there: {error.strerror}", cure="close files that are open there", file=out
         ) from None
+
+
+def _listed(out: Path) -> list[str]:
+    """Files of the result that is in a folder now, as its provenance lists them."""
+    try:
+        data = json.loads((out / PROVENANCE).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return []
+    if not isinstance(data, dict) or data.get("format") != PROVENANCE_FORMAT:
+        return []
+    return [name for name in data.get("files", []) if isinstance(name, str) and Path(name).name == name]

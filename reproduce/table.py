@@ -9,10 +9,16 @@ from textwrap import wrap
 from .case import Case
 
 _NOTE_WIDTH = 96
+_NUMBERS = (2, 3, 4)
 
 
 def _number(value: float | str) -> str:
     return value if isinstance(value, str) else f"{value:.6g}"
+
+
+def _line(row: Sequence[str], widths: Sequence[int]) -> str:
+    cells = (c.rjust(w) if i in _NUMBERS else c.ljust(w) for i, (c, w) in enumerate(zip(row, widths)))
+    return "  ".join(cells).rstrip()
 
 
 def gallery_text(cases: Sequence[Case]) -> str:
@@ -33,16 +39,11 @@ def gallery_text(cases: Sequence[Case]) -> str:
         ]
         head = ("case", "quantity", "printed", "computed", "tolerance", "verdict")
         widths = [max(len(row[i]) for row in (head, *rows)) for i in range(len(head))]
-        right = {2, 3, 4}
-
-        def line(row: Sequence[str], widths: Sequence[int] = widths) -> str:
-            cells = (c.rjust(w) if i in right else c.ljust(w) for i, (c, w) in enumerate(zip(row, widths)))
-            return "  ".join(cells).rstrip()
-
-        lines += ["", paper, "-" * len(line(head)), line(head), "-" * len(line(head))]
+        rule = "-" * (sum(widths) + 2 * (len(widths) - 1))
+        lines += ["", paper, rule, _line(head, widths), rule]
         last_note = ""
         for case, row in zip(own, rows, strict=True):
-            lines.append(line(row))
+            lines.append(_line(row, widths))
             if case.note and case.note != last_note:
                 lines += [f"    {part}" for part in wrap(case.note, _NOTE_WIDTH)]
             last_note = case.note
