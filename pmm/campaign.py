@@ -182,6 +182,9 @@ class Campaign:
         work = partial(self._read_and_reduce, plan=plan, waived=waived)
         report = partial(progress, "reading runs") if progress else None
         many = sum(run.file.stat().st_size for run in wet if run.file) > _BYTES_WORTH_PROCESSES
+        if many and wet[0].file is not None:
+            # Learns the dialect of the files, which then travels to every process.
+            self._read(wet[0].file, wet[0], waived)
         for result in iter_records(wet, work, workers=workers, processes=many, progress=report):
             digests[str(result.run.file.name if result.run.file else result.name)] = result.sha256
             reduced.append(result)

@@ -145,7 +145,8 @@ class _Test:
 
     run: ReducedRun
     motion: SinusoidMotion | None
-    known: dict[Term, np.ndarray] = field(default_factory=dict)
+    known: dict[str, np.ndarray] = field(default_factory=dict)
+    forces: dict[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
 
     @property
     def kind(self) -> str:
@@ -161,9 +162,10 @@ class _Test:
 
     def point(self, component: str, row: int) -> tuple[float, float]:
         """Mean or harmonic about the phase of the motion, and its standard error."""
-        force, sd = self.run.scaled[component], self.run.scaled_sd[component]
-        if self.motion is not None:
-            force, sd = self.motion.turned(force, sd)
+        if component not in self.forces:
+            force, sd = self.run.scaled[component], self.run.scaled_sd[component]
+            self.forces[component] = (force, sd) if self.motion is None else self.motion.turned(force, sd)
+        force, sd = self.forces[component]
         return float(force[row]), float(sd[row])
 
     def columns(self, terms: Sequence[Term], row: int) -> np.ndarray:
@@ -171,9 +173,9 @@ class _Test:
         if self.motion is None:
             return self.run.design(terms)[row]
         for term in terms:
-            if term not in self.known:
-                self.known[term] = self.motion.column(term, self.run.order)
-        return np.array([self.known[term][row] for term in terms])
+            if term.name not in self.known:
+                self.known[term.name] = self.motion.column(term, self.run.order)
+        return np.array([self.known[term.name][row] for term in terms])
 
 
 def _motion(run: ReducedRun, left_out: list[str]) -> SinusoidMotion | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,9 +11,10 @@ import numpy as np
 from ..core.derivative_set import DerivativeSet
 from ..core.derivative_table import digits_for, unit_line
 from ..core.errors import ConventionError
+from ..core.ship import Ship
 from ..core.terms import Factor
 from ..verify.scores import quality_and_bias, score_table
-from .set_table import read_set
+from .set_table import ShipNotGiven, read_set
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -52,9 +54,9 @@ def compare_sets(a: DerivativeSet, b: DerivativeSet) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        Columns :data:`COLUMNS`: the common terms in the order of `a`, then the terms that only one has. Percentages
-        are NaN where A is zero. ``z`` is (B - A) over the combined standard uncertainty; where one uncertainty is
-        unknown, over the other alone. ``attrs``: ``a``, ``b`` (names), ``conventions``, ``common``, ``only_a``,
+        Columns :data:`COLUMNS`: the common terms in the order of `a`, then the terms that only one has.
+        Percentages are NaN where A is zero. ``z`` is (B - A) over the combined standard uncertainty; where one
+        is unknown, over the other alone. ``attrs``: ``a``, ``b`` (names), ``conventions``, ``common``, ``only_a``,
         ``only_b``, ``Q``, ``BS``, ``n``, ``mean_z2`` (mean of z squared, 1 when the uncertainties explain the
         differences) and ``notes``.
 
@@ -66,6 +68,7 @@ def compare_sets(a: DerivativeSet, b: DerivativeSet) -> pd.DataFrame:
     import pandas as pd
 
     notes: list[str] = []
+    a, b = _with_ship(a, b.ship, "A", notes), _with_ship(b, a.ship, "B", notes)
     first, second = _in_one_convention(a, b, notes)
     ours = {_key(first, i): i for i in range(len(first))}
     theirs = {_key(second, i): i for i in range(len(second))}
@@ -104,9 +107,9 @@ def compare_sets(a: DerivativeSet, b: DerivativeSet) -> pd.DataFrame:
     )
     only_a = [first.names[i] for key, i in ours.items() if key not in theirs]
     only_b = [second.names[i] for key, i in theirs.items() if key not in ours]
-    frame = pd.concat(
-        [frame, _alone(first, only_a, "A"), _alone(second, only_b, "B")], ignore_index=True
-    )[list(COLUMNS)]
+    frame = pd.concat([frame, _alone(first, only_a, "A"), _alone(second, only_b, "B")], ignore_index=True)[
+        list(COLUMNS)
+    ]
     score = quality_and_bias(judged, reference, near_zero=0.0)
     z = table["z"].to_numpy(float)
     known = np.isfinite(z)
@@ -134,6 +137,14 @@ _Key = tuple[str, tuple[Factor, ...]]
 def _key(derivatives: DerivativeSet, index: int) -> _Key:
     term = derivatives.terms[index]
     return term.component, term.factors
+
+
+def _with_ship(derivatives: DerivativeSet, other: Ship, which: str, notes: list[str]) -> DerivativeSet:
+    """The set with the ship of the other one, when its own table names none."""
+    if not isinstance(derivatives.ship, ShipNotGiven) or isinstance(other, ShipNotGiven):
+        return derivatives
+    notes.append(f"{which} does not say its ship: taken as {other.name}")
+    return replace(derivatives, ship=other)
 
 
 def _in_one_convention(
@@ -165,9 +176,10 @@ def _alone(derivatives: DerivativeSet, names: list[str], which: str) -> pd.DataF
 
     part = derivatives.subset(names).to_frame() if names else derivatives.to_frame().iloc[:0]
     frame = pd.DataFrame({column: pd.Series(np.nan, index=part.index) for column in COLUMNS})
-    return frame.astype({"name": object, "verdict": object}).assign(
-        **{"name": part["name"], which: part["value"], f"{which}_std": part["std"], "verdict": f"only in {which}"}
-    )
+    frame["name"] = part["name"]
+    frame["verdict"] = f"only in {which}"
+    frame[which], frame[f"{which}_std"] = part["value"], part["std"]
+    return frame
 
 
 def _verdict(z: float, note: str) -> str:

@@ -45,10 +45,22 @@ def comparison_figure(comparison: pd.DataFrame, *, ax: Axes | None = None) -> Ax
     rows = np.arange(count)
     ax.axvline(0.0, color=MUTED, linewidth=0.9)
     ax.barh(rows, 2 * half_a, left=-half_a, height=0.62, color=MUTED, alpha=0.25, label="95 % of A")
-    for colour, chosen, label in ((BLUE, ~differ, "B with 95 %"), (VERMILLION, differ, "B, beyond 3 standard uncertainties")):
+    for colour, chosen, label in (
+        (BLUE, ~differ, "B with 95 %"),
+        (VERMILLION, differ, "B, beyond 3 standard uncertainties"),
+    ):
         if chosen.any():
             at = np.clip(percent[chosen], -WIDEST, WIDEST)
-            ax.errorbar(at, rows[chosen], xerr=half_b[chosen], fmt="o", color=colour, markersize=5, elinewidth=1.6, label=label)
+            ax.errorbar(
+                at,
+                rows[chosen],
+                xerr=half_b[chosen],
+                fmt="o",
+                color=colour,
+                markersize=5,
+                elinewidth=1.6,
+                label=label,
+            )
     for row in np.flatnonzero(np.abs(percent) > WIDEST):
         side = np.sign(percent[row])
         ax.annotate(
@@ -61,7 +73,11 @@ def comparison_figure(comparison: pd.DataFrame, *, ax: Axes | None = None) -> Ax
             fontsize=7,
             color=VERMILLION if differ[row] else BLUE,
         )
-    reach = max(5.0, float(np.max(np.minimum(np.abs(percent) + half_b, WIDEST), initial=0.0)), float(np.max(np.minimum(half_a, WIDEST), initial=0.0)))
+    reach = max(
+        5.0,
+        float(np.max(np.minimum(np.abs(percent) + half_b, WIDEST), initial=0.0)),
+        float(np.max(np.minimum(half_a, WIDEST), initial=0.0)),
+    )
     ax.set_xlim(-1.08 * reach, 1.08 * reach)
     ax.set_yticks(rows, [str(name) for name in table["name"]])
     ax.set_ylim(count - 0.4, -0.6)

@@ -1,4 +1,4 @@
-"""Tables of the report about derivatives: values, conventions, validity, other ways, other models, other ranges."""
+"""Tables of the report about derivatives: values, conventions, validity, other ways, models and ranges."""
 
 from __future__ import annotations
 
@@ -55,23 +55,23 @@ def derivative_table(fit: HullFit, written: DerivativeSet, bias: SharedBias) -> 
     if shared:
         columns.insert(3, Column("of it shared", "number", "part of std that all runs share (type B)"))
     rows, marks = [], []
-    for term, row in zip(written.terms, written.to_frame().itertuples(), strict=True):
-        places = digits_for(row.value, row.std)
-        half = 0.5 * (row.upper95 - row.lower95)
+    for term, row in zip(written.terms, written.to_frame().to_dict("records"), strict=True):
+        places = digits_for(row["value"], row["std"])
+        half = 0.5 * (row["upper95"] - row["lower95"])
         factor = inflation.get(term.name, math.nan)
         cells = [
             derivative_name(term),
-            fixed(row.value, places),
-            fixed(row.std, places),
-            fixed(row.lower95, places),
-            fixed(row.upper95, places),
-            _percent(half, row.value),
+            fixed(row["value"], places),
+            fixed(row["std"], places),
+            fixed(row["lower95"], places),
+            fixed(row["upper95"], places),
+            _percent(half, row["value"]),
             fixed(factor, 1),
         ]
         if shared:
             cells.insert(3, fixed(shared.get(term.name, math.nan), places))
         rows.append(cells)
-        holds_zero = row.lower95 <= 0.0 <= row.upper95
+        holds_zero = row["lower95"] <= 0.0 <= row["upper95"]
         marks.append("weak" if holds_zero or factor > VIF_LIMIT else "")
     return make_table(columns, rows, units_text(written), marks)
 
@@ -121,7 +121,13 @@ def validity_table(derivatives: DerivativeSet) -> Table:
             unit, factor = ("deg", 180.0 / math.pi) if kind.angle else ("–", 1.0)
         prime = "" if name == "Fn" or unit == "deg" else "′"
         rows.append((symbol(name) + prime, significant(factor * low), significant(factor * high), unit, meaning))
-    columns = [Column("variable"), Column("from", "number"), Column("to", "number"), Column("unit"), Column("meaning")]
+    columns = [
+        Column("variable"),
+        Column("from", "number"),
+        Column("to", "number"),
+        Column("unit"),
+        Column("meaning"),
+    ]
     return make_table(columns, rows)
 
 
@@ -142,19 +148,19 @@ def three_ways_table(ways: pd.DataFrame, derivatives: DerivativeSet) -> Table:
     ]
     terms = {term.name: term for term in derivatives.terms}
     rows = []
-    for row in ways.itertuples():
-        places = digits_for(row.fit, row.fit_std)
+    for row in ways.to_dict("records"):
+        places = digits_for(row["fit"], row["fit_std"])
         rows.append(
             (
-                derivative_name(terms[row.name]),
-                fixed(row.fit, places),
-                fixed(row.fit_std, places),
-                *_value_and_std(row.single_run, row.single_run_std, places),
-                str(row.single_runs) if row.single_runs else "–",
-                _change(row.single_minus_fit_percent),
-                *_value_and_std(row.multiple_run, row.multiple_run_std, places),
-                _change(row.multiple_minus_fit_percent),
-                row.multiple_run_method or "–",
+                derivative_name(terms[row["name"]]),
+                fixed(row["fit"], places),
+                fixed(row["fit_std"], places),
+                *_value_and_std(row["single_run"], row["single_run_std"], places),
+                str(row["single_runs"]) if row["single_runs"] else "–",
+                _change(row["single_minus_fit_percent"]),
+                *_value_and_std(row["multiple_run"], row["multiple_run_std"], places),
+                _change(row["multiple_minus_fit_percent"]),
+                row["multiple_run_method"] or "–",
             )
         )
     return make_table(columns, rows)
@@ -194,22 +200,22 @@ def candidates_table(candidates: pd.DataFrame) -> Table:
         columns.append(Column("note"))
     rows, marks = [], []
     last = ""
-    for row in candidates.itertuples():
-        marks.append("first" if row.component != last else "")
-        last = str(row.component)
+    for row in candidates.to_dict("records"):
+        marks.append("first" if row["component"] != last else "")
+        last = str(row["component"])
         rows.append(
             (
-                str(row.component),
-                str(row.model),
-                fixed(row.terms, 0),
-                fixed(row.n, 0),
-                fixed(row.delta_AICc, 1),
-                fixed(row.weight, 3),
-                fixed(row.R2, 5),
-                significant(row.residual_rms),
-                significant(row.cv_rms),
-                significant(row.condition_number),
-                *((str(row.note),) if noted else ()),
+                str(row["component"]),
+                str(row["model"]),
+                fixed(row["terms"], 0),
+                fixed(row["n"], 0),
+                fixed(row["delta_AICc"], 1),
+                fixed(row["weight"], 3),
+                fixed(row["R2"], 5),
+                significant(row["residual_rms"]),
+                significant(row["cv_rms"]),
+                significant(row["condition_number"]),
+                *((str(row["note"]),) if noted else ()),
             )
         )
     return make_table(columns, rows, marks=marks)
@@ -218,15 +224,17 @@ def candidates_table(candidates: pd.DataFrame) -> Table:
 def range_table(sensitivity: pd.DataFrame, derivatives: DerivativeSet) -> Table:
     """Derivatives refitted on runs within limits: value, and change in standard errors of the full fit."""
     terms = {term.name: term for term in derivatives.terms}
-    limits = list(dict.fromkeys(zip(sensitivity["variable"], sensitivity["limit"], sensitivity["runs"], strict=True)))
+    limits = list(
+        dict.fromkeys(zip(sensitivity["variable"], sensitivity["limit"], sensitivity["runs"], strict=True))
+    )
     columns = [Column("derivative")]
     for variable, limit, _ in limits:
         columns.append(Column(_within(variable, limit), "number"))
         if variable:
             columns.append(Column("Δ/std", "number", "change over the standard error of the fit of all runs"))
     table: Mapping[tuple[str, str, float], tuple[float, float, float]] = {
-        (row.name, row.variable, row.limit): (row.value, row.std, row.change_in_std)
-        for row in sensitivity.itertuples()
+        (row["name"], row["variable"], row["limit"]): (row["value"], row["std"], row["change_in_std"])
+        for row in sensitivity.to_dict("records")
     }
     rows, marks = [], []
     for name in dict.fromkeys(sensitivity["name"]):

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
-
 from ..core.derivative_set import DerivativeSet
 from ..core.derivative_table import unit_line
+from ..core.errors import ConventionError
 from ..core.provenance import program_versions
+from ..core.terms import Term
 
 
 def heading(converted: DerivativeSet, original: DerivativeSet, target: str) -> list[str]:
@@ -39,7 +39,9 @@ def heading(converted: DerivativeSet, original: DerivativeSet, target: str) -> l
     if converted.covariance is None:
         lines.append("Uncertainty: not given by the source")
     else:
-        lines.append("Uncertainty: std is the standard uncertainty; the correlations are in the JSON form of the set")
+        lines.append(
+            "Uncertainty: std is the standard uncertainty; the correlations are in the JSON form of the set"
+        )
     if converted.validity:
         ranges = ", ".join(f"{name} {low:.3g} to {high:.3g}" for name, (low, high) in converted.validity.items())
         lines.append(f"Measured range (non-dimensional): {ranges}")
@@ -53,6 +55,18 @@ def number(value: float, digits: int = 8) -> str:
     return text if any(sign in text for sign in ".en") else text + ".0"
 
 
-def python_name(name: str) -> str:
-    """A name in one line."""
-    return re.sub(r"\s+", " ", name).strip()
+def no_place(term: Term, model: str, is_own: bool = True) -> ConventionError:
+    """The error for a term that a program cannot take.
+
+    Parameters
+    ----------
+    term : Term
+    model : str
+        What the program holds.
+    is_own : bool
+        False for a term that only the conversion to the program's conventions brings in.
+    """
+    cause = f"'{term.name}' has no place in {model}"
+    if not is_own:
+        cause += "; the conversion to its conventions makes it"
+    return ConventionError(cause, cure="fit a model without it, or export with --for json")

@@ -13,16 +13,7 @@ from .shipmmg_export import shipmmg_text
 
 
 def _csv_text(derivatives: DerivativeSet) -> str:
-    """Table with a heading that :func:`towtank.report.comparison.read_set` understands."""
-    ship = derivatives.ship
-    lines = [f"# name = {' '.join(derivatives.name.split())}"]
-    if derivatives.provenance.source:
-        lines.append(f"# source = {' '.join(derivatives.provenance.source.split())}")
-    if derivatives.reference_speed is not None:
-        lines.append(f"# reference_speed = {derivatives.reference_speed!r}")
-    lines += [f"# ship.{key} = {value}" for key, value in ship.to_dict().items()]
-    lines += [f"# {key} = {value}" for key, value in derivatives.conventions.to_dict().items()]
-    return "\n".join(lines) + "\n" + derivatives.to_frame().to_csv(index=False, lineterminator="\n")
+    return str(derivatives.to_frame().to_csv(index=False, lineterminator="\n"))
 
 
 def _latex_text(derivatives: DerivativeSet) -> str:
@@ -69,7 +60,9 @@ def export_set(derivatives: DerivativeSet, target: str, path: str | Path | None 
     key = target.lower()
     if key == "xlsx":
         if path is None:
-            raise TowtankError("a workbook cannot be printed", cure="give a file with --out, e.g. derivatives.xlsx")
+            raise TowtankError(
+                "a workbook cannot be printed", cure="give a file with --out, e.g. derivatives.xlsx"
+            )
         if Path(path).suffix.lower() != ".xlsx":
             raise TowtankError("a workbook needs the ending .xlsx", cure="name it so", file=path)
         with atomic_path(path) as temporary:

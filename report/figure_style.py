@@ -1,8 +1,8 @@
 """The look of the figures: colours, axes, decimation, and figures as inline SVG.
 
-Figures are made with the object-oriented interface alone: no pyplot, no global state, so that reports can be made in
-several threads. The colours are those of Okabe and Ito (2008), which readers with colour-vision deficiency can tell
-apart.
+Figures are made with the object-oriented interface alone: no pyplot, no global state, so that reports can be made
+in several threads. The colours are those of Okabe and Ito (2008), which readers with colour-vision deficiency can
+tell apart.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 import io
 import re
 from html import escape
+from itertools import pairwise
 from threading import Lock
 from typing import Any
 
@@ -158,7 +159,7 @@ def decimated(times: np.ndarray, values: np.ndarray, limit: int = 800) -> tuple[
     stretches = limit // 2
     edges = np.linspace(0, count, stretches + 1).astype(int)
     picked = []
-    for start, stop in zip(edges[:-1], edges[1:], strict=True):
+    for start, stop in pairwise(edges.tolist()):
         part = values[start:stop]
         picked += sorted({start + int(np.argmin(part)), start + int(np.argmax(part))})
     return times[picked], values[picked]

@@ -142,7 +142,8 @@ def predicted(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Scaled force that a fit gives for a motion, and the half width of its 95 % interval.
 
-    The interval is that of the fitted curve (scatter and shared bias of the derivatives), not of a new measurement.
+    The interval is that of the fitted curve (scatter and shared bias of the derivatives), not of a new
+    measurement.
 
     Parameters
     ----------

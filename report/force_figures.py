@@ -79,7 +79,10 @@ def amplitude_fit(fit: HullFit, kind: str, component: str, *, most: int = 3, ax:
     result = fit.components[component]
     rows = result.rows
     chosen = np.array([fit.runs[index].run.kind == kind for index in rows.run.tolist()], dtype=bool)
-    sizes = {int(h): float(np.abs(rows.response[chosen & (rows.harmonic == h)]).max()) for h in np.unique(rows.harmonic[chosen])}
+    sizes = {
+        int(h): float(np.abs(rows.response[chosen & (rows.harmonic == h)]).max())
+        for h in np.unique(rows.harmonic[chosen])
+    }
     fitted = rows.design @ result.params
     factor = interval_factor(np.inf)
     label = ""
@@ -115,7 +118,9 @@ def row_spread(fit: HullFit, component: str) -> dict[tuple[int, int], float]:
     """Half width of 95 % of each datum: (run, harmonic) -> scaled force."""
     result = fit.components[component]
     half = interval_factor(np.inf) * finite(result.row_sd)
-    return dict(zip(zip(result.rows.run.tolist(), result.rows.harmonic.tolist(), strict=True), half.tolist(), strict=True))
+    return dict(
+        zip(zip(result.rows.run.tolist(), result.rows.harmonic.tolist(), strict=True), half.tolist(), strict=True)
+    )
 
 
 def finite(values: np.ndarray) -> np.ndarray:

@@ -127,7 +127,7 @@ def render_report(
         "severities": _severities(result),
         "chosen": chosen,
         "defaults": defaults,
-        "steps": [step for step in provenance.choices.get("steps seen", [])],
+        "steps": list(provenance.choices.get("steps seen", [])),
         "body": result.rigid_body.describe() if result.rigid_body else "",
         "accepted": setting_text(provenance.choices.get("accepted rules", [])),
         "inputs": inputs_table(provenance.inputs),
@@ -258,7 +258,9 @@ def facts(result: CampaignResult) -> list[tuple[str, str, str]]:
         detail = ", ".join(f"{component} {fixed(value, 4)}" for component, value in low.items())
         rows.append(("lowest R²", fixed(min(low.values()), 4), detail))
     counts = _severities(result)
-    detail = ", ".join(f"{number} {name}" for name, number in counts.items()) or "the audit found nothing to report"
+    detail = (
+        ", ".join(f"{number} {name}" for name, number in counts.items()) or "the audit found nothing to report"
+    )
     rows.append(("findings", str(sum(counts.values())), detail))
     return rows
 
@@ -274,8 +276,9 @@ def citation(result: CampaignResult, version: str, created: datetime) -> str:
     """How to cite the derivatives of this report."""
     source = result.campaign.source.rstrip(". ")
     digest = result.fits[0].derivatives.provenance.inputs.get(result.path.name, "")
-    text = f"{result.campaign.name}: hydrodynamic derivatives identified with towtank {version}, {created:%Y-%m-%d}"
+    text = (
+        f"{result.campaign.name}: hydrodynamic derivatives identified with towtank {version}, {created:%Y-%m-%d}"
+    )
     if digest:
         text += f", campaign file sha256 {digest[:16]}"
     return f"{text}. Data: {source}." if source else f"{text}."
-

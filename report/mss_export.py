@@ -1,10 +1,10 @@
 """A derivative set as MATLAB code for the Marine Systems Simulator (MSS), in the form of its ``mariner.m``.
 
-``mariner.m`` holds prime-I derivatives about midship, speeds over the instantaneous U, a rudder angle that turns the
-ship to port when positive, and masses m, Iz about midship, xG over L. Its forces have no centripetal terms, because
-the velocity derivatives of the Mariner hold the mass. A set that does not hold it gets these terms written out, as in
-``navalvessel.m``, whose names for moduli (Yvav for v|v|) are used too; so does one without the added-mass Coriolis terms.
-No term is changed for that, so the force is the same to the last digit.
+``mariner.m`` holds prime-I derivatives about midship, speeds over the instantaneous U, a rudder angle that turns
+the ship to port when positive, and masses m, Iz about midship, xG over L. Its forces have no centripetal terms,
+because the velocity derivatives of the Mariner hold the mass. A set that does not hold it gets these terms written
+out, as in ``navalvessel.m``, whose names for moduli (Yvav for v|v|) are used too; so does one without the added-mass
+Coriolis terms. No term is changed for that, so the force is the same to the last digit.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ..core.derivative_set import DerivativeSet
 from ..core.errors import ConventionError
 from ..core.scales import mass_coefficient, yaw_inertia_coefficient
 from ..core.terms import Factor, Term
-from .export_heading import heading, number
+from .export_heading import heading, no_place, number
 
 _VARIABLES = {"u": "u", "v": "v", "r": "r", "delta": "delta", "surge": "(U0/U+u)"}
 _TOKENS = {"u": "u", "v": "v", "r": "r", "delta": "d", "surge": "s"}
@@ -48,8 +48,9 @@ def mss_text(derivatives: DerivativeSet) -> str:
     constant = [term for term in converted.terms if not term.factors and term.component == "X"]
     masses = [term for term in converted.terms if set(term.variables) & _ACCELERATIONS]
     forces = [term for term in converted.terms if term not in masses and term not in constant]
+    own = {(term.component, term.factors) for term in derivatives.terms}
     for term in (*masses, *forces):
-        _check_place(term)
+        _check_place(term, (term.component, term.factors) in own)
     spread = converted.bse.to_dict()
     lines = [f"% {line}".rstrip() for line in heading(converted, derivatives, "MSS (mariner.m)")]
     absent = [name for name in _MASS_TERMS if name not in {_plain_name(term) for term in masses}]
@@ -72,8 +73,8 @@ def mss_text(derivatives: DerivativeSet) -> str:
     for term in constant:
         resistance = "R0" if term.sign < 0 else "-X0"
         lines += [
-            f"% {matlab_name(term)} is left out of X: mariner.m takes the thrust as equal to the resistance. With the",
-            "% thrust of the approach speed held:",
+            f"% {matlab_name(term)} is left out of X: mariner.m takes the thrust as equal to the resistance.",
+            "% With the thrust of the approach speed held:",
             f"% X = X + {resistance}*((U0/U)^2 - 1);",
         ]
     lines.append(f"% {ship.name}: rudder angle delta is positive when it turns the ship to port, as in mariner.m.")
@@ -81,10 +82,10 @@ def mss_text(derivatives: DerivativeSet) -> str:
 
 
 def matlab_name(term: Term) -> str:
-    """Name of a term as a MATLAB variable: ``Yv|v|`` is Yvav, as in navalvessel.m."""
-    if term.name == "R0":
-        return "R0"
+    """Name of a term as a MATLAB variable: its own where MATLAB allows it; ``Yv|v|`` is Yvav."""
     plain = _plain_name(term)
+    if plain not in _MASS_TERMS and term.name.isidentifier():
+        plain = term.name
     return _SPELLED.get(plain, plain)
 
 
@@ -149,16 +150,13 @@ def _centripetal(converted: DerivativeSet) -> dict[str, list[str]]:
     return terms
 
 
-def _check_place(term: Term) -> None:
+def _check_place(term: Term, is_own: bool) -> None:
     if set(term.variables) & _ACCELERATIONS:
         fits = Term.spell(term.component, term.factors).name in _MASS_TERMS
     else:
         fits = term.component in "XYN" and set(term.variables) <= set(_VARIABLES)
     if not fits:
-        raise ConventionError(
-            f"'{term.name}' has no place in the three-degree-of-freedom model of MSS (mariner.m)",
-            cure="leave the term out of the fit, or export with --for json",
-        )
+        raise no_place(term, "the three-degree-of-freedom model of MSS (mariner.m)", is_own)
 
 
 def _particulars(converted: DerivativeSet) -> list[str]:

@@ -28,19 +28,20 @@ PROVENANCE, PROVENANCE_FORMAT = "provenance.json", "towtank provenance 1"
 COMPARISONS = {"three ways": "three-ways.csv", "candidates": "candidates.csv", "range": "range.csv"}
 """Kind of comparison and the file that its tables go to."""
 
+
 def write_results(
     result: CampaignResult, out: str | Path, *, report: bool | None = None, progress: Progress | None = None
 ) -> list[Path]:
     """Write everything that a campaign yields.
 
     Files are ``derivatives.csv`` (name, value, std, lower95, upper95, scaling; with several groups also group),
-    ``derivatives.json`` (the set; with several groups all of them by label, and ``derivatives-<group>.json`` for each),
-    ``harmonics.csv``, ``runs.csv``, ``findings.csv``, the comparisons that were made (``three-ways.csv``,
+    ``derivatives.json`` (the set; with several groups all of them by label, and ``derivatives-<group>.json`` for
+    each), ``harmonics.csv``, ``runs.csv``, ``findings.csv``, the comparisons that were made (``three-ways.csv``,
     ``candidates.csv``, ``range.csv``), ``report.html`` and ``provenance.json``. Numbers have all their digits.
 
-    Everything is made in a folder beside `out` first. A new folder then appears at once; in an existing one file after
-    file is replaced, and files that its provenance.json lists and this result does not have are removed. Until then the
-    old result stays.
+    Everything is made in a folder beside `out` first. A new folder then appears at once; in an existing one file
+    after file is replaced, and files that its provenance.json lists and this result does not have are removed. Until
+    then the old result stays.
 
     Parameters
     ----------
@@ -193,7 +194,9 @@ def _publish(folder: Path, out: Path, names: list[str]) -> None:
             (out / name).unlink(missing_ok=True)
     except OSError as error:
         raise TowtankError(
-            f"the results cannot be moved there: {error.strerror}", cure="close files that are open there", file=out
+            f"the results cannot be moved there: {error.strerror}",
+            cure="close files that are open there",
+            file=out,
         ) from None
 
 

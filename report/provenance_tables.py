@@ -62,7 +62,9 @@ def _settings(key: str, value: Any, given: bool) -> list[tuple[str, str, bool]]:
     if isinstance(value, BaseModel):
         for name in type(value).model_fields:
             rows += _settings(f"{key}.{name}", getattr(value, name), given and name in value.model_fields_set)
-        return rows + [(f"{key}.{name}", setting_text(item), given) for name, item in (value.model_extra or {}).items()]
+        return rows + [
+            (f"{key}.{name}", setting_text(item), given) for name, item in (value.model_extra or {}).items()
+        ]
     if isinstance(value, Mapping) and value:
         for name, below in value.items():
             rows += _settings(f"{key}.{name}", below, given)

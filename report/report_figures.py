@@ -92,8 +92,10 @@ class Draughtsman:
             ]
             yield Row(
                 f"Harmonics of {name} runs against amplitude",
-                self._panels(f"harmonics against amplitude, {name}", partial(amplitude_fit, self.fit, kind), excited),
-                "Filled: measured, with bars of 95 %. Open and joined: fitted. The largest harmonics of each force.",
+                self._panels(
+                    f"harmonics against amplitude, {name}", partial(amplitude_fit, self.fit, kind), excited
+                ),
+                "Filled: measured, with bars of 95 %. Open, joined: fitted. The largest harmonics of each force.",
             )
 
     def _oscillating_kinds(self) -> list[str]:
@@ -109,8 +111,10 @@ class Draughtsman:
         """Standardised residuals run by run."""
         return Row(
             "Residuals by run",
-            self._panels("standardised residuals by run", partial(residuals_by_run, self.fit), self.fit.components),
-            "Residuals over the standard deviation of their row. Shaded: ± 2. The numbers are those of the table of runs.",
+            self._panels(
+                "standardised residuals by run", partial(residuals_by_run, self.fit), self.fit.components
+            ),
+            "Residuals over the standard deviation of their row. Shaded: ± 2. Numbers as in the table of runs.",
         )
 
     def agreement(self) -> Row:
@@ -139,11 +143,11 @@ class Draughtsman:
 
     def forest(self, ways: pd.DataFrame | None) -> Drawing:
         """Intervals of all derivatives."""
-        caption = (
-            "95 % interval of each derivative in per cent of its value; an arrow where it leaves the figure."
-        )
+        caption = "95 % interval of each derivative in per cent of its value; an arrow where it leaves the figure."
         if ways is not None:
-            caption += " Beside it the estimates from single runs and from multiple-run curves, where they lie inside."
+            caption += (
+                " Beside it the estimates from single runs and from multiple-run curves, where they lie inside."
+            )
         return self._large(caption, derivative_forest(self.written, ways))
 
     def correlation(self) -> Drawing:

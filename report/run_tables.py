@@ -130,7 +130,7 @@ def diagnostics_table(fit: HullFit) -> Table:
 
 
 def remarks(fit: HullFit) -> list[tuple[str, str, str]]:
-    """What the diagnostics say in words: (mark, subject, sentence); the mark is ``weak`` for what needs attention."""
+    """What the diagnostics say in words: (mark, subject, sentence), ``weak`` marking what needs attention."""
     found: list[tuple[str, str, str]] = []
     for component in fit.components:
         facts = fit.derivatives.diagnostics.get(component)

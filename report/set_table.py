@@ -1,7 +1,7 @@
 """Derivative sets from files: derivatives.json, or a published table typed into a CSV file.
 
-A table has the columns ``name``, ``value`` and, where known, ``std`` and ``scaling``. What gives its numbers a meaning
-stands above it in comment lines::
+A table has the columns ``name``, ``value`` and, where known, ``std`` and ``scaling``. What gives its numbers a
+meaning stands above it in comment lines::
 
     # name = KVLCC2, Yasukawa and Yoshimura 2015
     # source = J Mar Sci Technol 20, Table 3
@@ -14,7 +14,8 @@ stands above it in comment lines::
     name,value,std
     Yv,-0.315,0.01
 
-Conventions that are not named are those of home (see :class:`towtank.core.Conventions`).
+Conventions that are not named are those of home (see :class:`towtank.core.Conventions`). A table that names no ship
+can be compared, but not converted by anything that needs the particulars of the ship.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ import numpy as np
 
 from ..core.conventions import CHOICES, Conventions
 from ..core.derivative_set import DerivativeSet
-from ..core.errors import ReadError, TowtankError
+from ..core.errors import ConventionError, ReadError, TowtankError
 from ..core.provenance import Provenance, file_hash
 from ..core.ship import Ship
 from ..core.terms import parse_terms
@@ -44,6 +45,26 @@ _SHIP_TEXT = {"name"}
 _HEAD = {"name", "source", "reference_speed"}
 
 
+class ShipNotGiven(Ship):
+    """The ship of a table that names none: asking for its length, breadth or draught is an error."""
+
+    def __init__(self, file: str) -> None:
+        object.__setattr__(self, "file", file)
+        object.__setattr__(self, "name", "ship not given")
+        for item in fields(Ship):
+            if item.name not in ("name", "L", "B", "T"):
+                object.__setattr__(self, item.name, item.default)
+
+    def __getattr__(self, name: str) -> Any:
+        if name in ("L", "B", "T"):
+            raise ConventionError(
+                f"the table does not say the {name} of its ship",
+                cure=f"write above it, e.g. '# ship.{name} = 7.0'",
+                file=self.__dict__.get("file"),
+            )
+        raise AttributeError(name)
+
+
 def read_set(path: str | Path, *, ship: Ship | None = None) -> DerivativeSet:
     """Read a derivative set from a JSON file of towtank or from a table.
 
@@ -53,7 +74,7 @@ def read_set(path: str | Path, *, ship: Ship | None = None) -> DerivativeSet:
         ``derivatives.json``, or a CSV file as the module describes. Beside a CSV file that towtank wrote, the JSON
         file of the same stem gives ship and conventions.
     ship : Ship, optional
-        The ship of a table that names none.
+        The ship of a table that names none; :class:`ShipNotGiven` otherwise.
 
     Returns
     -------
@@ -148,7 +169,8 @@ def _split(text: str, path: Path) -> tuple[dict[str, str], list[tuple[int, dict[
         if key not in _HEAD | _CONVENTIONS and key.removeprefix("ship.") not in _SHIP:
             raise ReadError(
                 f"unknown key '{key}' in the heading",
-                cure=f"use name, source, reference_speed, ship.<particular> or a convention: {', '.join(sorted(CHOICES))}",
+                cure="use name, source, reference_speed, ship.<particular> or a convention: "
+                + ", ".join(sorted(CHOICES)),
                 file=path,
                 place=f"line {number}",
             )
@@ -162,19 +184,22 @@ def _split(text: str, path: Path) -> tuple[dict[str, str], list[tuple[int, dict[
         cells = next(csv.reader([line], delimiter=delimiter))
         if len(cells) != len(names):
             raise ReadError(
-                f"{len(cells)} cells for {len(names)} columns", cure="mend the row", file=path, place=f"line {number}"
+                f"{len(cells)} cells for {len(names)} columns",
+                cure="mend the row",
+                file=path,
+                place=f"line {number}",
             )
         rows.append((number, {name: cell.strip() for name, cell in zip(names, cells, strict=True)}))
     if "name" not in names or "value" not in names:
         raise ReadError(
-            f"the table has the columns {', '.join(names)}", cure="name them name,value and std where known", file=path
+            f"the table has the columns {', '.join(names)}",
+            cure="name them name,value and std where known",
+            file=path,
         )
     return header, rows
 
 
-def _columns(
-    rows: list[tuple[int, dict[str, str]]], path: Path
-) -> tuple[dict[str, float], list[float], set[str]]:
+def _columns(rows: list[tuple[int, dict[str, str]]], path: Path) -> tuple[dict[str, float], list[float], set[str]]:
     """Values by name, standard uncertainties (empty when one is missing) and the scalings that are named."""
     values: dict[str, float] = {}
     spread: list[float] = []
@@ -185,7 +210,9 @@ def _columns(
             raise ReadError(f"'{name}' is given twice", cure="keep one row", file=path, place=place)
         values[name] = _number(row["value"], "value", path, place)
         if not math.isfinite(values[name]):
-            raise ReadError(f"the value of '{name}' is missing", cure="fill or drop the row", file=path, place=place)
+            raise ReadError(
+                f"the value of '{name}' is missing", cure="fill or drop the row", file=path, place=place
+            )
         if row.get("std"):
             spread.append(_number(row["std"], "std", path, place))
         if row.get("scaling"):
@@ -198,7 +225,9 @@ def _number(text: str, what: str, path: Path, place: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise ReadError(f"{what} = '{text}' is not a number", cure="mend the cell", file=path, place=place) from None
+        raise ReadError(
+            f"{what} = '{text}' is not a number", cure="mend the cell", file=path, place=place
+        ) from None
 
 
 def _ship(header: dict[str, str], path: Path) -> Ship:
@@ -207,13 +236,8 @@ def _ship(header: dict[str, str], path: Path) -> Ship:
         part = key.removeprefix("ship.")
         if part != key:
             given[part] = value if part in _SHIP_TEXT else _number(value, key, path, "heading")
-    missing = [key for key in ("L", "B", "T") if key not in given]
-    if missing:
-        raise ReadError(
-            f"the table does not say {', '.join(f'ship.{key}' for key in missing)}, without which it cannot be converted",
-            cure="write above it, e.g. '# ship.L = 7.0'",
-            file=path,
-        )
+    if not given:
+        return ShipNotGiven(str(path))
     try:
         return Ship.from_dict({"name": "ship of the table"} | given)
     except TowtankError as error:

@@ -1,8 +1,8 @@
 """A derivative set as parameters of shipmmg's three-degree-of-freedom MMG model.
 
-Names and equations are those of ``shipmmg.mmg_3dof`` (Mmg3DofManeuveringParams, Mmg3DofBasicParams): hull forces over
-``0.5 rho L_pp d U**2`` in v' and r' about midship, resistance R_0, added masses m_x, m_y, J_z outside the derivatives
-(Yasukawa and Yoshimura 2015).
+Names and equations are those of ``shipmmg.mmg_3dof`` (Mmg3DofManeuveringParams, Mmg3DofBasicParams): hull forces
+over ``0.5 rho L_pp d U**2`` in v' and r' about midship, resistance R_0, added masses m_x, m_y, J_z outside the
+derivatives (Yasukawa and Yoshimura 2015).
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ import numpy as np
 from ..core.conventions import HOME
 from ..core.derivative_set import DerivativeSet
 from ..core.errors import ConventionError
-from ..core.terms import Term
-from .export_heading import heading, number, python_name
+from ..core.terms import Factor, Term
+from .export_heading import heading, no_place, number
 
 PARAMETERS = {
     "R0": "R_0_dash",
@@ -34,6 +34,7 @@ PARAMETERS = {
 
 ADDED_MASSES = {"Xudot": "m_x", "Yvdot": "m_y", "Nrdot": "J_z"}
 
+_MODEL = "the MMG model of shipmmg"
 _VARIABLES = {"v", "beta", "r", "udot", "vdot", "rdot"}
 
 IGNORED = {
@@ -60,7 +61,7 @@ def shipmmg_text(derivatives: DerivativeSet) -> str:
     """
     for term in derivatives.terms:
         if not set(term.variables) <= _VARIABLES:
-            raise _no_place(term)
+            raise no_place(term, _MODEL)
     assumed: list[str] = []
     converted = _outside(derivatives, assumed)
     terms = {(term.component, term.factors): term for term in converted.terms}
@@ -69,7 +70,7 @@ def shipmmg_text(derivatives: DerivativeSet) -> str:
     ignored = {_key(name): reason for name, reason in IGNORED.items()}
     for key, term in terms.items():
         if key not in placed and key not in masses and key not in ignored:
-            raise _no_place(term)
+            raise no_place(term, _MODEL, term.name in derivatives)
     spread = converted.bse.to_dict()
     hull, absent = [], []
     for name, parameter in PARAMETERS.items():
@@ -94,18 +95,11 @@ def shipmmg_text(derivatives: DerivativeSet) -> str:
         lines.append("shipmmg takes U from v - r x_G; here U is that of midship")
     lines.append("Call simulate_mmg_3dof(..., ρ=rho): its default is 1.025 (tonnes), the masses here are in kg.")
     lines.append("Usage: Mmg3DofManeuveringParams(k_0=..., k_1=..., k_2=..., **hull_derivatives)")
-    name = python_name(converted.name)
     comment = [f"# {line}".rstrip() for line in lines]
-    return "\n".join([*comment, "", f"# {name}", *_ship_lines(converted), "", "hull_derivatives = dict(", *hull, ")", ""])
+    return "\n".join([*comment, "", *_ship_lines(converted), "", "hull_derivatives = dict(", *hull, ")", ""])
 
 
-def _no_place(term: Term) -> ConventionError:
-    return ConventionError(
-        f"'{term.name}' has no place in shipmmg's MMG model", cure="fit the model 'mmg', or export with --for json"
-    )
-
-
-def _key(name: str) -> tuple[str, tuple[object, ...]]:
+def _key(name: str) -> tuple[str, tuple[Factor, ...]]:
     term = Term.parse(name)
     return term.component, term.factors
 
@@ -128,8 +122,8 @@ def _outside(derivatives: DerivativeSet, assumed: list[str]) -> DerivativeSet:
             plain = _with_zero(plain, name)
             mass = ADDED_MASSES[name]
             assumed.append(
-                f"ATTENTION: {name} is not in the set, so {mass} = 0 and {', '.join(carried)} keeps its added-mass "
-                f"Coriolis term INSIDE. Do not set {mass} without taking that term out of {', '.join(carried)}."
+                f"ATTENTION: {name} is not in the set, so {mass} = 0 and {', '.join(carried)} keeps its added-mass"
+                f" Coriolis term INSIDE. Do not set {mass} without taking that term out of {', '.join(carried)}."
             )
     try:
         return plain.to(target)
@@ -175,7 +169,5 @@ def _ship_lines(converted: DerivativeSet) -> list[str]:
             continue
         power = 4 if name == "Nrdot" else 2
         value = -converted[term.name]
-        lines.append(
-            f"{mass_name} = {number(value)} * 0.5 * rho * L_pp**{power} * d{_spread(spread[term.name])}"
-        )
+        lines.append(f"{mass_name} = {number(value)} * 0.5 * rho * L_pp**{power} * d{_spread(spread[term.name])}")
     return lines
