@@ -19,7 +19,6 @@ import math
 import multiprocessing
 import resource
 import statistics
-import sys
 import tempfile
 import time
 from collections.abc import Callable
@@ -271,7 +270,7 @@ def main() -> None:
     if not options.skip_plain:
         own_reading = read_seconds_of_towtank(campaign)
         own_after = max(statistics.median(ours) - own_reading, 1e-9)
-        reading, after = plain_loop(campaign)
+        _, after = plain_loop(campaign)
         print(
             f"  after reading: plain loop {after:.2f} s, towtank {own_after:.2f} s (its reading {own_reading:.2f} s)"
         )
@@ -285,4 +284,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

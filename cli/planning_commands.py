@@ -90,7 +90,8 @@ def synthesize(
     from ..pmm.noise import Noise
     from ..pmm.rigid_body import RigidBody
     from ..pmm.standard_matrices import STANDARD_MATRICES
-    from ..pmm.virtual_campaign import FORMATS, synthesize as write_campaign
+    from ..pmm.virtual_campaign import FORMATS
+    from ..pmm.virtual_campaign import synthesize as write_campaign
 
     if list_matrices:
         for key, item in STANDARD_MATRICES.items():

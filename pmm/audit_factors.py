@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..core.findings import Finding
+from ..core.findings import Finding, Severity
 from ..core.ship import Ship
 from .audit_rules import finding
 from .run_types import Run
@@ -73,7 +73,7 @@ def compare_size(name: str, ratio: float, measured: str, expected: str) -> list[
         return [finding("angle-in-degrees", f"{text}; {why}", place=f"channel {name}")]
     if name in _LENGTHS and (why := explain_length(ratio)):
         return [finding("length-in-millimetres", f"{text}; {why}", place=f"channel {name}")]
-    severity = "error" if abs(ratio - 1.0) > _FAR else "warning"
+    severity: Severity = "error" if abs(ratio - 1.0) > _FAR else "warning"
     return [finding("amplitude-mismatch", text, severity=severity, place=f"channel {name}")]
 
 
@@ -83,7 +83,7 @@ def compare_speed(name: str, measured: float, expected: float, ship: Ship) -> li
     if abs(ratio - 1.0) <= _SPEED_NEAR:
         return []
     why = explain_speed(ratio, ship.scale)
-    severity = "error" if why or abs(ratio - 1.0) > _SPEED_FAR else "warning"
+    severity: Severity = "error" if why or abs(ratio - 1.0) > _SPEED_FAR else "warning"
     text = f"{name} is {measured:.4g} m/s, {expected:.4g} m/s is expected: {ratio:.4g} times as much"
     return [
         finding("speed-mismatch", f"{text}; {why}" if why else text, severity=severity, place=f"channel {name}")

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from ..core.conventions import Conventions
-from ..core.findings import Finding
+from ..core.findings import Finding, Severity
 from ..core.ship import Ship
 from .audit_rules import finding
 from .run_types import Run
@@ -60,7 +60,7 @@ def _scale(runs: Sequence[Run], ship: Ship, conventions: Conventions) -> list[Fi
         text = f"{fastest.speed:.4g} m/s is a Froude number of {froude:.2f} at L = {ship.L:.5g} m"
         if ship.scale > 1.5:
             text += f"; at model scale it would be {fastest.speed / math.sqrt(ship.scale):.4g} m/s"
-        severity = "error" if froude > _ABSURD_FROUDE else "warning"
+        severity: Severity = "error" if froude > _ABSURD_FROUDE else "warning"
         found.append(finding("scale-label", text, severity=severity, place=place))
     # Tables of non-dimensional points carry a nominal speed of 1 m/s and no file.
     elif ship.L > _LONGEST_MODEL and fastest.speed < _SLOW_SHIP and fastest.file is not None:

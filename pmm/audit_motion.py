@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..core.findings import Finding
+from ..core.findings import Finding, Severity
 from ..core.ship import Ship
 from .audit_factors import NEAR, compare_sign, compare_size, compare_speed, explain_angle, explain_length
 from .audit_rules import finding
@@ -44,9 +44,9 @@ def audit_oscillation(
         Point that follows the prescribed path, m forward of midship.
     """
     seen = recorded_harmonics(channels, time, run)
-    if seen is None:
-        return []
     want = expected_motion(run, reference)
+    if seen is None:
+        return _other_frequency(want, channels, time, run)
     found = _swapped_forces(seen, run)
     if not found:
         found = _frequency(seen, want, channels, time, run)
@@ -97,12 +97,23 @@ def _frequency(
         return [
             finding("frequency-mismatch", text, severity="error" if severe else "warning", place=f"channel {name}")
         ]
-    hertz = 1.0 / run.period
-    peak, share = strongest_line(channels[name], time)
-    resolution = 1.0 / float(time[-1] - time[0])
-    if share < 0.4 or abs(peak - hertz) <= max(0.75 * resolution, 0.03 * hertz):
+    return _other_frequency(want, channels, time, run)
+
+
+def _other_frequency(
+    want: ExpectedMotion, channels: Mapping[str, np.ndarray], time: np.ndarray, run: Run
+) -> list[Finding]:
+    """Frequency of the strongest line, where the harmonic of the test matrix does not describe the motion."""
+    name = next((name for name in want.telling if name in channels), None)
+    if name is None:
         return []
-    width = 0.06 + resolution / peak
+    values = _without_trend(channels[name], time) if name == "x" else channels[name]
+    peak, share = strongest_line(values, time)
+    hertz = 1.0 / run.period
+    resolution = 1.0 / float(time[-1] - time[0])
+    if share < 0.4 or abs(peak - hertz) <= max(0.2 * resolution, 0.02 * hertz):
+        return []
+    width = 0.03 + 0.2 * resolution / peak if peak > 0 else 0.0
     hints = [text for ratio, text in _UNITS_OF_FREQUENCY if abs(peak / hertz / ratio - 1.0) < width]
     text = (
         f"{name} oscillates at about {2 * math.pi * peak:.4g} rad/s ({peak:.4g} Hz), the test matrix says "
@@ -187,7 +198,7 @@ def _phase(seen: RecordedHarmonics, want: ExpectedMotion) -> list[Finding]:
         f"{name} is {math.degrees(abs(ahead)):.3g} deg {'ahead of' if ahead > 0 else 'behind'} the motion of the "
         "test matrix, which starts at time 0"
     )
-    severity = "error" if abs(ahead) > _PHASE_ERROR else "warning"
+    severity: Severity = "error" if abs(ahead) > _PHASE_ERROR else "warning"
     return [finding("phase-mismatch", text, severity=severity, place=f"channel {name}")]
 
 
@@ -207,3 +218,8 @@ def _amplitudes(seen: RecordedHarmonics, want: ExpectedMotion, explained: set[st
             continue
         found += compare_size(name, measured / expected, f"an amplitude of {measured:.4g}", f"{expected:.4g}")
     return found
+
+
+def _without_trend(values: np.ndarray, time: np.ndarray) -> np.ndarray:
+    since = time - time.mean()
+    return values - since * float(since @ values) / float(since @ since)

@@ -116,7 +116,7 @@ class Fit(_Section):
     estimator: Literal["wls", "ols", "huber", "ridge", "tsvd", "constrained"] = "wls"
     covariance: Literal["model", "cluster", "bootstrap"] = "model"
     staged: bool = False
-    group_by: list[Literal["depth", "speed", "heel"]] = Field(default_factory=lambda: ["depth"])
+    group_by: tuple[Literal["depth", "speed", "heel"], ...] = ("depth",)
     scaling: str = "lt"
     candidates: list[str] = Field(default_factory=list)
     range_limits: list[float] = Field(default_factory=list)

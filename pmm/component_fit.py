@@ -222,12 +222,11 @@ def _shrunk(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     from ..identify.ridge import fit_ridge, fit_truncated_svd
 
-    options = {"weights": weights, "groups": rows.run}
     if settings.estimator == "ridge":
-        result = fit_ridge(rows.design, rows.response, rows.names, **options)
+        result = fit_ridge(rows.design, rows.response, rows.names, weights=weights, groups=rows.run)
         notes.append(f"ridge, penalty {result.penalty:.3g} by leaving out runs")
     else:
-        result = fit_truncated_svd(rows.design, rows.response, rows.names, **options)
+        result = fit_truncated_svd(rows.design, rows.response, rows.names, weights=weights, groups=rows.run)
         notes.append(f"truncated SVD, {result.kept} of {len(rows.terms)} directions by leaving out runs")
     notes.append("intervals do not hold the bias of shrinking")
     # The same shrinking, written as a matrix on the response: columns at unit weighted mean square.

@@ -25,7 +25,6 @@ from .reduced_run import FORCES, ReducedRun
 from .run_types import Run
 from .shared_bias import bias_covariance
 
-
 OUTLYING = 4.0
 """A run is outlying when one of its rows misses the fit by more standard deviations than this."""
 

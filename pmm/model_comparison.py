@@ -210,16 +210,18 @@ def range_sensitivity(
     if settings.covariance == "bootstrap":
         settings = settings.model_copy(update={"covariance": "model"})
     by_variable = dict(limits) if isinstance(limits, Mapping) else {"v": limits, "r": limits}
-    reach = {variable: np.array([_reach(run, variable) for run in wet]) for variable in by_variable}
-    reference = _refit(wet, terms, settings)
+    reach = np.array([_reach(run, tuple(by_variable)) for run in wet])
+    data = [force_rows(wet, terms, component) for component in FORCES]
+    data = [rows for rows in data if rows.terms and len(rows.response)]
+    reference = _refit(data, np.ones(len(wet), dtype=bool), terms, settings)
     rows = [_range_row("", math.inf, len(wet), term.name, reference, reference) for term in terms]
-    for variable, values in by_variable.items():
+    for column, (variable, values) in enumerate(by_variable.items()):
         for limit in sorted(values):
-            within = [run for run, size in zip(wet, reach[variable], strict=True) if size <= limit * _WITHIN]
-            if len(within) == len(wet):
+            within = reach[:, column] <= limit * _WITHIN
+            if within.all():
                 continue
-            refit = _refit(within, terms, settings)
-            rows += [_range_row(variable, limit, len(within), t.name, refit, reference) for t in terms]
+            refit = _refit(data, within, terms, settings)
+            rows += [_range_row(variable, limit, int(within.sum()), t.name, refit, reference) for t in terms]
     return pd.DataFrame(rows, columns=list(RANGE_COLUMNS))
 
 
@@ -246,38 +248,36 @@ def _range_row(
 
 
 def _refit(
-    runs: Sequence[ReducedRun], terms: Sequence[Term], settings: Fit
+    data: Sequence[ForceRows], within: np.ndarray, terms: Sequence[Term], settings: Fit
 ) -> dict[str, tuple[float, float, str]]:
     """Value, standard error and note of every term; NaN with the reason where the runs do not carry it."""
     results = {term.name: (math.nan, math.nan, "no run excites it") for term in terms}
-    for component in FORCES:
-        own = [term for term in terms if term.component == component]
-        if not own:
-            continue
-        data = force_rows(runs, own, component)
-        excited = np.flatnonzero(data.excited).tolist()
+    for rows in data:
+        inside = rows.only(np.flatnonzero(within[rows.run]))
+        excited = np.flatnonzero(inside.excited).tolist()
         if not excited:
             continue
-        used = [own[i] for i in excited]
+        inside = inside.only(np.arange(len(inside.response)), excited)
         try:
-            stages = default_stages(used) if settings.staged else None
-            fit = fit_component(data.only(np.arange(len(data.response)), excited), settings, stages)
+            stages = default_stages(inside.terms) if settings.staged else None
+            fit = fit_component(inside, settings, stages)
         except FitError as error:
-            results |= {term.name: (math.nan, math.nan, error.cause) for term in used}
+            results |= dict.fromkeys(inside.names, (math.nan, math.nan, error.cause))
             continue
-        for term, value, variance in zip(used, fit.params, np.diag(fit.cov), strict=True):
-            results[term.name] = (float(value), math.sqrt(max(float(variance), 0.0)), "")
+        for name, value, variance in zip(inside.names, fit.params, np.diag(fit.cov), strict=True):
+            results[name] = (float(value), math.sqrt(max(float(variance), 0.0)), "")
     return results
 
 
-def _reach(run: ReducedRun, variable: str) -> float:
-    """Largest magnitude of a variable in a run, non-dimensional."""
+def _reach(run: ReducedRun, variables: Sequence[str]) -> list[float]:
+    """Largest magnitude of each variable in a run, non-dimensional."""
     times = np.array([run.window.start])
     if run.order:
-        times = run.window.start + run.run.period * np.linspace(0.0, 1.0, 96, endpoint=False)
+        times = run.window.start + run.run.period * np.linspace(0.0, 1.0, 48, endpoint=False)
     state, _ = scaled_state(
         run.motion.at(times), run.ship, Conventions(velocity_scale=run.velocity_scale), run.motion.speed
     )
-    if variable not in state:
-        raise TermError(f"the motion has no '{variable}'", cure=f"limit one of {', '.join(sorted(state))}")
-    return float(np.abs(state[variable]).max())
+    for variable in variables:
+        if variable not in state:
+            raise TermError(f"the motion has no '{variable}'", cure=f"limit one of {', '.join(sorted(state))}")
+    return [float(np.abs(state[variable]).max()) for variable in variables]

@@ -126,7 +126,7 @@ def _point(
         drift = angle * value("beta", value("drift_angle"))
         drift *= side * (1.0 if conventions.drift_sign == "-v" else -1.0)
     kind = "steady_yaw_drift" if yaw and drift else "steady_yaw" if yaw else "static_drift"
-    more = {
+    more: dict[str, Any] = {
         name: value(name) * (angle if name in ("rudder_angle", "heel") else 1.0)
         for name in ("rudder_angle", "heel", "bank_position", "depth", "propeller_rate")
         if name in row and name in RUN_PARAMETERS

@@ -84,7 +84,7 @@ class TimeRows:
     ) -> TimeRows:
         """Rows from the columns of all terms and the scaled forces, each of shape (n,)."""
         stacked = np.column_stack([*columns.values(), *scaled.values()])
-        return cls(np.linalg.qr(stacked, mode="r"), tuple(columns), tuple(scaled), dict(sd))
+        return cls(np.asarray(np.linalg.qr(stacked, mode="r")), tuple(columns), tuple(scaled), dict(sd))
 
     def rows(self, component: str, terms: Sequence[Term]) -> tuple[np.ndarray, np.ndarray]:
         """Design and response of one component.
@@ -191,12 +191,12 @@ class ReducedRun:
             return self.design(terms), self.scaled[component], self.scaled_sd[component], dof, np.arange(size)
         design, response = self.samples.rows(component, terms)
         size = len(response)
-        dof = float(np.min(self.noise_dof[component]))
+        lowest = float(np.min(self.noise_dof[component]))
         return (
             design,
             response,
             np.full(size, self.samples.sd[component]),
-            np.full(size, dof),
+            np.full(size, lowest),
             np.zeros(size, dtype=int),
         )
 

@@ -320,7 +320,9 @@ def _harmonics(
         scaled={name: fit.coefficients[:, i] for i, name in enumerate(names)},
         scaled_sd={name: sd[:, i] for i, name in enumerate(names)},
         dof={name: fit.dof[:, i] for i, name in enumerate(names)},
-        residual_sd={name: float(fit.residual_std[i]) * abs(unit[i]) for i, name in enumerate(names)},
+        residual_sd={
+            name: float(np.atleast_1d(fit.residual_std)[i]) * abs(unit[i]) for i, name in enumerate(names)
+        },
         note=f"mean and {order} harmonics by least squares at {omega:.6g} rad/s",
         projector=projector,
     )

@@ -15,6 +15,9 @@ from .component_fit import ComponentFit
 from .planar_motion import Oscillation, PlanarMotion
 from .reduced_run import ReducedRun
 
+Change = Callable[[str, ComponentFit], np.ndarray]
+"""Change of a component's response for a unit of a shared bias."""
+
 
 def bias_effects(
     runs: Sequence[ReducedRun], components: Mapping[str, ComponentFit], bias: SharedBias
@@ -34,17 +37,23 @@ def bias_effects(
     """
     effects: dict[str, tuple[float, np.ndarray]] = {}
 
-    def add(source: str, u: float, change: Callable[[str, ComponentFit], np.ndarray]) -> None:
+    def add(source: str, u: float, change: Change) -> None:
         if u:
             parts = [fit.influence @ change(component, fit) for component, fit in components.items()]
             effects[source] = (u, np.concatenate(parts))
 
+    def gain(own: str) -> Change:
+        return lambda c, fit: fit.rows.response * (c == own)
+
+    def offset(own: str) -> Change:
+        return lambda c, fit: _offset(runs, fit, c) * (c == own)
+
     for component, u in bias.gain.items():
         _check(component, components)
-        add(f"gain of {component}", u, lambda c, fit, own=component: fit.rows.response * (c == own))
+        add(f"gain of {component}", u, gain(component))
     for component, u in bias.offset.items():
         _check(component, components)
-        add(f"offset of {component}", u, lambda c, fit, own=component: _offset(runs, fit, c) * (c == own))
+        add(f"offset of {component}", u, offset(component))
     add(
         "carriage speed",
         bias.speed,

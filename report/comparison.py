@@ -164,10 +164,13 @@ def _in_one_convention(
 
 
 def _converted(derivatives: DerivativeSet, like: DerivativeSet) -> DerivativeSet:
-    """A set in the conventions of another; dimensional sets also at its scale."""
-    if like.conventions.force_scaling == "dimensional" and derivatives.ship.scale != like.ship.scale:
+    """A set in the conventions of another; dimensional values also at its scale."""
+    scalings = {derivatives.conventions.force_scaling, like.conventions.force_scaling}
+    if "dimensional" in scalings and derivatives.ship.scale != like.ship.scale:
         derivatives = derivatives.at_scale(like.ship.scale, rho=like.ship.rho)
-    return derivatives.to(like.conventions)
+    # non-dimensional values are the same for model and ship
+    conventions = derivatives.conventions.but(scale=like.conventions.scale)
+    return replace(derivatives, conventions=conventions).to(like.conventions)
 
 
 def _alone(derivatives: DerivativeSet, names: list[str], which: str) -> pd.DataFrame:
@@ -247,7 +250,7 @@ def comparison_cells(row: Any) -> list[str]:
         (digits_for(value, std) for value, std in ((a, a_std), (b, b_std)) if math.isfinite(value)), default=5
     )
     cells = [f"{value:.{places}f}" if math.isfinite(value) else "" for value in (a, a_std, b, b_std)]
-    percent = [f"{value:+.1f}" if math.isfinite(value) else "" for value in (first, second)]
+    percent = [f"{value + 0.0:+.1f}".replace("-0.0", "0.0") if math.isfinite(value) else "" for value in (first, second)]
     return [
         str(name),
         *cells,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
+from .comparison import DISAGREEMENT
 from .figure_style import BLUE, MUTED, VERMILLION, new_axes, small_legend
 
 if TYPE_CHECKING:
@@ -29,8 +30,8 @@ def comparison_figure(comparison: pd.DataFrame, *, ax: Axes | None = None) -> Ax
     Returns
     -------
     Axes
-        Grey bars: 95 % of A; coloured points: B with its 95 %; orange-red where the two differ by more than three
-        combined standard uncertainties.
+        Grey bars: 95 % of A; coloured points: B with its 95 %, to the right where its magnitude is larger;
+        orange-red where the two differ by more than three combined standard uncertainties.
     """
     table = comparison[comparison["name"].isin(comparison.attrs["common"])]
     table = table[table["A"] != 0.0].reset_index(drop=True)
@@ -38,10 +39,10 @@ def comparison_figure(comparison: pd.DataFrame, *, ax: Axes | None = None) -> Ax
     ax = ax if ax is not None else new_axes((6.4, 1.0 + 0.23 * count), margins=(0.8, 0.15, 0.5, 0.35))
     a, b = table["A"].to_numpy(float), table["B"].to_numpy(float)
     size = np.abs(a)
-    percent = 100.0 * (b - a) / size
+    percent = 100.0 * (b - a) / a
     half_a = 196.0 * np.nan_to_num(table["A_std"].to_numpy(float)) / size
     half_b = 196.0 * np.nan_to_num(table["B_std"].to_numpy(float)) / size
-    differ = np.abs(np.nan_to_num(table["z"].to_numpy(float))) > 3.0
+    differ = np.abs(np.nan_to_num(table["z"].to_numpy(float))) > DISAGREEMENT
     rows = np.arange(count)
     ax.axvline(0.0, color=MUTED, linewidth=0.9)
     ax.barh(rows, 2 * half_a, left=-half_a, height=0.62, color=MUTED, alpha=0.25, label="95 % of A")
@@ -73,15 +74,12 @@ def comparison_figure(comparison: pd.DataFrame, *, ax: Axes | None = None) -> Ax
             fontsize=7,
             color=VERMILLION if differ[row] else BLUE,
         )
-    reach = max(
-        5.0,
-        float(np.max(np.minimum(np.abs(percent) + half_b, WIDEST), initial=0.0)),
-        float(np.max(np.minimum(half_a, WIDEST), initial=0.0)),
-    )
+    extent = np.concatenate([np.abs(percent) + half_b, half_a])
+    reach = float(np.clip(extent.max(initial=0.0), 5.0, WIDEST))
     ax.set_xlim(-1.08 * reach, 1.08 * reach)
     ax.set_yticks(rows, [str(name) for name in table["name"]])
     ax.set_ylim(count - 0.4, -0.6)
     ax.grid(False, axis="y")
-    ax.set_xlabel("(B - A)/|A| [%]")
+    ax.set_xlabel("(B - A)/A [%]")
     small_legend(ax, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, borderpad=0)
     return ax

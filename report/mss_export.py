@@ -3,8 +3,8 @@
 ``mariner.m`` holds prime-I derivatives about midship, speeds over the instantaneous U, a rudder angle that turns
 the ship to port when positive, and masses m, Iz about midship, xG over L. Its forces have no centripetal terms,
 because the velocity derivatives of the Mariner hold the mass. A set that does not hold it gets these terms written
-out, as in ``navalvessel.m``, whose names for moduli (Yvav for v|v|) are used too; so does one without the added-mass
-Coriolis terms. No term is changed for that, so the force is the same to the last digit.
+out, as in ``navalvessel.m``, whose names for moduli (Yvav for v|v|) are used too; so does one without the
+added-mass Coriolis terms. No term is changed for that, so the force is the same to the last digit.
 """
 
 from __future__ import annotations

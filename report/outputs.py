@@ -10,6 +10,7 @@ import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -40,8 +41,8 @@ def write_results(
     ``candidates.csv``, ``range.csv``), ``report.html`` and ``provenance.json``. Numbers have all their digits.
 
     Everything is made in a folder beside `out` first. A new folder then appears at once; in an existing one file
-    after file is replaced, and files that its provenance.json lists and this result does not have are removed. Until
-    then the old result stays.
+    after file is replaced, and files that its provenance.json lists and this result does not have are removed.
+    Until then the old result stays.
 
     Parameters
     ----------
@@ -94,7 +95,7 @@ def _writers(result: CampaignResult, report: bool, progress: Progress | None) ->
     for kind, name in COMPARISONS.items():
         frame = comparison_frame(result, kind)
         if frame is not None:
-            writers.append((name, lambda path, frame=frame: frame.to_csv(path, index=False)))
+            writers.append((name, partial(frame.to_csv, index=False)))
     if report:
         from .html_report import write_report
 

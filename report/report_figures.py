@@ -72,7 +72,9 @@ class Draughtsman:
 
     def _large(self, caption: str, ax: Axes) -> Drawing:
         self._count += 1
-        return Drawing(inline_svg(ax.get_figure(root=True), f"{self._prefix}-{self._count}", caption), caption)
+        figure = ax.get_figure(root=True)
+        assert figure is not None
+        return Drawing(inline_svg(figure, f"{self._prefix}-{self._count}", caption), caption)
 
     def force_fits(self) -> Iterator[Row]:
         """Forces against drift angle, yaw rate, ... of steady runs, and harmonics against amplitude."""

@@ -14,7 +14,7 @@ meaning stands above it in comment lines::
     name,value,std
     Yv,-0.315,0.01
 
-Conventions that are not named are those of home (see :class:`towtank.core.Conventions`). A table that names no ship
+Conventions that are not named are those of home (:class:`towtank.core.Conventions`). A table that names no ship
 can be compared, but not converted by anything that needs the particulars of the ship.
 """
 
