@@ -74,7 +74,8 @@ def audit_campaign(
         return found + exchanged
     signs = audit_signs(slopes)
     found += signs
-    found += audit_rudder_sign(wet, ship)
+    if not any(item.rule == "force-sign" and item.severity == "error" for item in signs):
+        found += audit_rudder_sign(wet, ship)
     yardstick = _yardstick(ship, wet)
     if yardstick is None:
         return found

@@ -86,20 +86,26 @@ def _density(ship: Ship) -> list[Finding]:
 
 
 def _angles(runs: Sequence[Run]) -> list[Finding]:
-    for name, limit in _LIMITS.items():
-        values = {run.name: float(getattr(run, name)) for run in runs}
-        worst = max(values, key=lambda key: abs(values[key]), default=None)
-        if worst is not None and abs(values[worst]) > limit:
-            turned = math.degrees(values[worst])
-            text = (
-                f"{name} = {values[worst]:.4g} rad is {turned:.4g} deg: degrees of the test matrix were taken for "
-                "radians"
-            )
-            cure = "set conventions.angle_unit = 'deg'"
-            return [finding("angle-in-degrees", text, place=f"run '{worst}'", cure=cure)]
+    for run in runs:
+        if found := audit_angles(run):
+            return found
     drift = [abs(run.drift_angle) for run in runs if run.drift_angle]
     if len(drift) >= 2 and max(drift) < math.radians(0.6):
         text = f"no drift angle is above {math.degrees(max(drift)):.2g} deg: radians were taken for degrees"
         cure = "set conventions.angle_unit = 'rad'"
         return [finding("angle-in-degrees", text, place="test matrix", cure=cure)]
+    return []
+
+
+def audit_angles(run: Run) -> list[Finding]:
+    """Finding when an angle of a run is larger than any captive test has it."""
+    for name, limit in _LIMITS.items():
+        angle: float = getattr(run, name)
+        if not -limit <= angle <= limit:
+            text = (
+                f"{name} = {angle:.4g} rad is {math.degrees(angle):.4g} deg: degrees of the test matrix were taken for "
+                "radians"
+            )
+            cure = "set conventions.angle_unit = 'deg'"
+            return [finding("angle-in-degrees", text, place=f"run '{run.name}'", cure=cure)]
     return []

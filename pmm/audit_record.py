@@ -14,7 +14,8 @@ from ..core.findings import Finding
 from ..core.record import Record
 from ..core.ship import Ship
 from .audit_channels import audit_channels, audit_steadiness
-from .audit_motion import audit_oscillation
+from .audit_matrix import audit_angles
+from .audit_motion import audit_frequency, audit_oscillation
 from .audit_rules import finding
 from .audit_steady_motion import audit_constant_angles, audit_steady_motion, rows_at_speed
 from .audit_table import audit_table
@@ -58,6 +59,8 @@ def audit_record(record: Record, run: Run, ship: Ship, *, reference: float = 0.0
     ReadError
         When the record has no time channel.
     """
+    if absurd := audit_angles(run):
+        return [replace(item, file=record.source) for item in absurd]
     time = record.time
     found, usable = audit_time(time)
     if usable:
@@ -70,8 +73,10 @@ def audit_record(record: Record, run: Run, ship: Ship, *, reference: float = 0.0
             channels = {name: values for name, values in channels.items() if f"channel {name}" not in incomplete}
         if run.harmonic:
             cycles = _cycles(time, run)
-            found += cycles
-            if not any(item.severity == "error" for item in cycles):
+            if any(item.severity == "error" for item in cycles):
+                found += audit_frequency(channels, time, run) or cycles
+            else:
+                found += cycles
                 found += audit_oscillation(channels, time, run, ship, reference)
         else:
             found += audit_steadiness(channels, rows)

@@ -2,45 +2,59 @@
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-import numpy as np
-
-from ..core.conventions import Conventions, preset
+from ..core.conventions import Conventions
 from ..core.derivative_set import DerivativeSet
 from ..core.errors import CampaignError, TowtankError
 from ..core.findings import Finding, accept, stop_on_error
 from ..core.provenance import Provenance, file_hash, program_versions
-from ..core.record import Record
 from ..core.ship import Ship
 from ..core.terms import Term
-from ..formats.channels import ChannelMap
-from ..formats.dialect import Dialect
-from ..formats.read import read_table
 from ..formats.stream import iter_records
 from .audit_campaign import audit_campaign
-from .audit_record import audit_record, audit_table
+from .audit_rules import RULES, require_rules
 from .campaign_file import CampaignFile, candidate_terms, load_campaign_file
 from .campaign_result import CampaignResult
 from .hull_fit import HullFit, default_terms, fit_hull
-from .planar_motion import prescribed_motion
-from .points import read_points
+from .points import PointTable, read_points
 from .reduced_run import ReducedRun
-from .reduction import ReductionPlan, home_axes, reduce_run, zero_level
-from .rigid_body import RigidBody, identify_rigid_body
+from .reduction import ReductionPlan
+from .rigid_body import RigidBody
+from .run_groups import group_runs, shown_runs
+from .run_reading import RunReader
 from .run_summary import run_summary
 from .run_types import Run
 from .test_matrix import expand_runs
 
-_BYTES_WORTH_PROCESSES = 200e6
-"""Campaigns with more bytes are read in processes, which start slowly but share no interpreter lock."""
-
 Progress = Callable[[str, int, int], None]
 """Called with what is being done, how many are done, how many there are."""
+
+
+class Reduced(NamedTuple):
+    """Runs of a campaign after reading, audit and reduction.
+
+    Attributes
+    ----------
+    runs : list of ReducedRun
+        Runs in water and points.
+    rigid_body : RigidBody or None
+        What hangs on the balance, when its inertia was subtracted.
+    digests : dict of str to str
+        sha256 of every input file, by its name from the folder of the campaign.
+    findings : list of Finding
+        Of all files, zero runs and runs in air included.
+    """
+
+    runs: list[ReducedRun]
+    rigid_body: RigidBody | None
+    digests: dict[str, str]
+    findings: list[Finding]
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,12 +100,16 @@ class Campaign:
     @cached_property
     def runs(self) -> tuple[Run, ...]:
         """All runs with files, in the order of the campaign file."""
-        return tuple(expand_runs(self.file.runs, self.folder, self.conventions, self.path))
-
-    @cached_property
-    def _dialects(self) -> dict[str, Dialect]:
-        """How the text files of each ending were understood: the next file is read faster with it."""
-        return {}
+        runs = expand_runs(self.file.runs, self.folder, self.conventions, self.path)
+        for run in runs:
+            if run.file is None:
+                raise CampaignError(
+                    "the run has no file",
+                    cure="add a column 'file' to the matrix",
+                    file=self.path,
+                    place=f"run '{run.name}'",
+                )
+        return tuple(runs)
 
     def run(
         self,
@@ -123,17 +141,16 @@ class Campaign:
         TowtankError
             For bad input; nothing is written here.
         """
-        waived = frozenset(accept_rules) | set(self.file.accept)
-        reduced, body, digests = self.reduce(waived, progress=progress, workers=workers)
-        findings = [finding for run in reduced for finding in run.findings]
-        groups = self._grouped(reduced)
+        waived = self._waived(accept_rules)
+        reduced, body, digests, findings = self.reduce(waived, progress=progress, workers=workers)
+        groups = group_runs(reduced, self.file.fit.group_by)
         prior = self._prior()
         fits: list[HullFit] = []
         for number, (label, runs) in enumerate(groups.items(), start=1):
             if progress:
                 progress("fitting", number - 1, len(groups))
             fits.append(self._fit(label, runs, prior, digests, waived, body))
-            findings += self._cross_audit(fits[-1], waived)
+            findings += self._cross_audit(fits[-1].runs, fits[-1].derivatives, waived)
         if progress:
             progress("fitting", len(groups), len(groups))
         stop_on_error(findings)
@@ -150,129 +167,97 @@ class Campaign:
             comparisons=comparisons,
         )
 
+    def audit(
+        self, *, accept_rules: Iterable[str] = (), progress: Progress | None = None, workers: int = 2
+    ) -> list[Finding]:
+        """Every finding about the files and across the runs, without stopping at the first and without a fit.
+
+        Parameters
+        ----------
+        accept_rules, progress, workers
+            As in :meth:`run`.
+
+        Raises
+        ------
+        TowtankError
+            For a file that cannot be read at all.
+        """
+        waived = self._waived(accept_rules)
+        # Zero and dry runs must not stop the look at the others.
+        reader = RunReader(self.file, self.path, self.ship, self.conventions, waived | set(RULES))
+        plan = self._plan(reader)
+        reader = replace(reader, waived=waived)
+        report = partial(progress, "auditing") if progress else None
+        wet = [run for run in self.runs if not run.dry]
+        results = list(iter_records(wet, partial(reader.look_at, plan=plan), workers=workers, progress=report))
+        findings = [item for found, _ in results for item in found]
+        runs = [run for _, run in results if run is not None]
+        if self.file.points is not None:
+            points = self._points()
+            findings += points.findings
+            runs += points.runs
+        findings = [*accept((replace(item, accepted=False) for item in reader.findings), waived), *findings]
+        for group in group_runs(runs, self.file.fit.group_by).values() if runs else ():
+            findings += self._cross_audit(group, None, waived)
+        return accept(findings, waived)
+
+    def _waived(self, accept_rules: Iterable[str]) -> frozenset[str]:
+        rules = frozenset(accept_rules)
+        require_rules(rules)
+        return rules | set(self.file.accept)
+
     # -- reading ---------------------------------------------------------------------------------------------
 
     def reduce(
         self, waived: frozenset[str] = frozenset(), *, progress: Progress | None = None, workers: int = 2
-    ) -> tuple[list[ReducedRun], RigidBody | None, dict[str, str]]:
+    ) -> Reduced:
         """Read, audit and reduce every run.
 
-        Returns
-        -------
-        runs : list of ReducedRun
-        body : RigidBody or None
-            What hangs on the balance, when its inertia was subtracted.
-        digests : dict of str to str
-            sha256 of every input file.
+        Raises
+        ------
+        TowtankError
+            For bad input, or an error of the audit that is not in `waived`.
         """
-        settings = self.file.reduction
-        digests = {self.path.name: file_hash(self.path)}
-        plan = ReductionPlan(settings, self.ship, self.conventions)
-        plan = replace(plan, tare=self._tare(plan))
-        body = self._rigid_body(plan, waived)
+        reader = RunReader(self.file, self.path, self.ship, self.conventions, waived)
+        plan = self._plan(reader)
         wet = [run for run in self.runs if not run.dry]
-        plan = replace(
+        report = partial(progress, "reading runs") if progress else None
+        work = partial(reader.read_and_reduce, plan=plan)
+        reduced = list(iter_records(wet, work, workers=workers, progress=report))
+        findings = [*reader.findings, *(item for run in reduced for item in run.findings)]
+        digests = {self.path.name: file_hash(self.path)}
+        digests |= {
+            group.matrix: file_hash(self.folder / group.matrix) for group in self.file.runs if group.matrix
+        }
+        if self.file.points is not None:
+            points = self._points()
+            noticed = accept(points.findings, waived)
+            stop_on_error(noticed)
+            findings += noticed
+            if points.sha256:
+                digests[str(self.file.points.file)] = points.sha256
+            reduced += points.runs
+        # Threads finish in any order.
+        digests |= dict(sorted(reader.digests.items()))
+        return Reduced(reduced, plan.inertia, digests, findings)
+
+    def _plan(self, reader: RunReader) -> ReductionPlan:
+        """How runs are reduced, zero levels and inertia found."""
+        plan = ReductionPlan(self.file.reduction, self.ship, self.conventions)
+        plan = replace(plan, tare=reader.zero_levels(self.runs, plan))
+        return replace(
             plan,
-            inertia=body,
+            inertia=reader.rigid_body(self.runs, plan),
             terms=self._terms_wanted(),
-            keep_series=self._shown(wet),
+            keep_series=shown_runs([run for run in self.runs if not run.dry], self.file.output.series_in_report),
             time_domain=self.file.fit.domain == "time",
         )
-        reduced: list[ReducedRun] = []
-        work = partial(self._read_and_reduce, plan=plan, waived=waived)
-        report = partial(progress, "reading runs") if progress else None
-        many = sum(run.file.stat().st_size for run in wet if run.file) > _BYTES_WORTH_PROCESSES
-        if many and wet[0].file is not None:
-            # Learns the dialect of the files, which then travels to every process.
-            self._read(wet[0].file, wet[0], waived)
-        for result in iter_records(wet, work, workers=workers, processes=many, progress=report):
-            digests[str(result.run.file.name if result.run.file else result.name)] = result.sha256
-            reduced.append(result)
-        if self.file.points is not None:
-            points, digest = read_points(
-                self.file.points,
-                self.ship,
-                self.conventions,
-                self.folder,
-                self.path,
-                settings.nondimensional_speed,
-            )
-            if digest and self.file.points.file:
-                digests[self.file.points.file] = digest
-            reduced += points
-        return reduced, body, digests
 
-    def _read(self, path: Path, run: Run | None, waived: frozenset[str]) -> tuple[Record, tuple[Finding, ...]]:
-        assert self.file.channels is not None
-        reader = self.file.reader
-        channels = self.file.channels
-        table = read_table(
-            path,
-            dialect=self._dialects.get(path.suffix),
-            format=reader.format,
-            sheet=reader.sheet,
-            group=reader.group,
-            columns=channels.expected_columns(),
+    def _points(self) -> PointTable:
+        assert self.file.points is not None
+        return read_points(
+            self.file.points, self.ship, self.conventions, self.folder, self.path, self.file.reduction
         )
-        if table.dialect is not None:
-            self._dialects[path.suffix] = table.dialect
-        findings = accept(audit_table(table, run), waived)
-        stop_on_error(findings)
-        psi = None
-        if run is not None and channels.forces == "carriage-fixed" and "psi" not in channels.channels:
-            clock = ChannelMap.model_validate({"time": channels.channels["time"]})
-            psi = _heading(run, self.file.reduction.position_x, clock.apply(table).time)
-        record = channels.apply(table, psi=psi)
-        return record, tuple(findings)
-
-    def _read_and_reduce(self, run: Run, *, plan: ReductionPlan, waived: frozenset[str]) -> ReducedRun:
-        assert run.file is not None
-        record, findings = self._read(run.file, run, waived)
-        turned = home_axes(record, plan.conventions)
-        more = accept(audit_record(turned, run, plan.ship, reference=plan.settings.position_x), waived)
-        stop_on_error(more)
-        return reduce_run(record, run, plan, (*findings, *more))
-
-    def _tare(self, plan: ReductionPlan) -> dict[str, Mapping[str, float]]:
-        levels: dict[str, Mapping[str, float]] = {}
-        by_name = {run.name: run.file for run in self.runs}
-        for run in self.runs:
-            if not run.tare or run.tare in levels:
-                continue
-            path = by_name.get(run.tare) or self.folder / run.tare
-            if not path.is_file():
-                raise CampaignError(
-                    f"zero run '{run.tare}' not found",
-                    cure="name a run or a file of the campaign",
-                    file=self.path,
-                    place=f"run '{run.name}', tare",
-                )
-            record, _ = self._read(path, None, frozenset())
-            levels[run.tare] = zero_level(record, plan)
-        return levels
-
-    def _rigid_body(self, plan: ReductionPlan, waived: frozenset[str]) -> RigidBody | None:
-        inertia = self.file.inertia
-        if not inertia.inside:
-            return None
-        if not inertia.dry_runs:
-            assert inertia.mass is not None
-            assert inertia.Izz is not None
-            return RigidBody(inertia.mass + inertia.mount_mass, inertia.xG, inertia.Izz)
-        pairs = []
-        for run in self.runs:
-            if not run.dry or run.file is None:
-                continue
-            record, _ = self._read(run.file, run, waived)
-            result = reduce_run(record, run, replace(plan, keep_series=frozenset({run.name})))
-            pairs.append((result.motion.at(result.window.times), result.series))
-        if not pairs:
-            raise CampaignError(
-                "inertia.dry_runs is true but there is no dry run",
-                cure="add runs of type dry_sway and dry_yaw",
-                file=self.path,
-            )
-        return identify_rigid_body(pairs)
 
     def _terms_wanted(self) -> tuple[Term, ...]:
         """Every term that some fit of this campaign will ask for, once each."""
@@ -281,51 +266,7 @@ class Campaign:
         unique = {term.factors: term for terms in lists for term in terms}
         return tuple(unique.values())
 
-    def _shown(self, runs: Sequence[Run]) -> frozenset[str]:
-        """Names of the runs whose series the report draws: the largest motion of each kind first."""
-        wanted = self.file.output.series_in_report
-        by_kind: dict[str, list[Run]] = {}
-        for run in runs:
-            by_kind.setdefault(run.kind, []).append(run)
-        for same in by_kind.values():
-            same.sort(key=lambda run: -abs(run.sway_amplitude) - abs(run.drift_angle) - abs(run.yaw_rate))
-        shown: list[str] = []
-        while len(shown) < wanted and any(by_kind.values()):
-            for same in by_kind.values():
-                if same and len(shown) < wanted:
-                    shown.append(same.pop(0).name)
-        return frozenset(shown)
-
     # -- fitting ---------------------------------------------------------------------------------------------
-
-    def _grouped(self, runs: Sequence[ReducedRun]) -> dict[str, list[ReducedRun]]:
-        by = self.file.fit.group_by
-        groups: dict[tuple[float, ...], list[ReducedRun]] = {}
-        for run in runs:
-            key = tuple(
-                round(
-                    {
-                        "depth": min(run.ship.depth_ratio, 1e9),
-                        "speed": run.ship.froude_number(run.run.speed),
-                        "heel": float(np.degrees(run.run.heel)),
-                    }[name],
-                    3,
-                )
-                for name in by
-            )
-            groups.setdefault(key, []).append(run)
-        if len(groups) == 1:
-            return {"": next(iter(groups.values()))}
-        text = {"depth": "h/T {:g}", "speed": "Fn {:g}", "heel": "heel {:g} deg"}
-
-        def label(key: tuple[float, ...]) -> str:
-            parts = (
-                "deep water" if name == "depth" and value >= 1e9 else text[name].format(value)
-                for name, value in zip(by, key, strict=True)
-            )
-            return ", ".join(parts)
-
-        return {label(key): groups[key] for key in sorted(groups)}
 
     def _prior(self) -> DerivativeSet | None:
         name = self.file.fit.prior
@@ -352,6 +293,7 @@ class Campaign:
             versions=program_versions(),
         )
         terms = self.file.fit.hull_terms() or default_terms([run.run for run in runs])
+        self._require_terms(terms)
         if prior is not None:
             drift = any("beta" in term.variables for term in terms)
             prior = prior.to(
@@ -376,6 +318,22 @@ class Campaign:
                 error.cause, cure=error.cure, file=error.file or self.path, place=error.place
             ) from None
 
+    def _require_terms(self, terms: Sequence[Term]) -> None:
+        """Refuse a constraint on a term that is not fitted: misspelt, it would constrain nothing."""
+        fit = self.file.fit
+        known = [term.name for term in terms]
+        wishes = [("fixed", name) for name in fit.fixed] + [("bounds", name) for name in fit.bounds]
+        wishes += [("equalities", name) for item in fit.equalities for name in item.terms]
+        for key, name in wishes:
+            if name not in known:
+                close = difflib.get_close_matches(name, known, n=3, cutoff=0.5)
+                raise CampaignError(
+                    f"'{name}' is not a fitted term",
+                    cure=f"closest: {', '.join(close)}" if close else f"fitted are {', '.join(known)}",
+                    file=self.path,
+                    place=f"key 'fit.{key}'",
+                )
+
     def _choices(
         self, runs: Sequence[ReducedRun], waived: frozenset[str], body: RigidBody | None
     ) -> dict[str, Any]:
@@ -393,18 +351,17 @@ class Campaign:
             "conventions of the data": self.conventions.to_dict(),
         }
 
-    def _cross_audit(self, fit: HullFit, waived: frozenset[str]) -> list[Finding]:
-        summaries = [run_summary(run) for run in fit.runs]
-        return accept(
-            audit_campaign(
-                summaries,
-                fit.runs[0].ship,
-                self.conventions,
-                fit.derivatives,
-                inertia_inside=self.file.inertia.inside,
-            ),
-            waived,
+    def _cross_audit(
+        self, runs: Sequence[ReducedRun], fitted: DerivativeSet | None, waived: frozenset[str]
+    ) -> list[Finding]:
+        found = audit_campaign(
+            [run_summary(run) for run in runs],
+            runs[0].ship,
+            self.conventions,
+            fitted,
+            inertia_inside=self.file.inertia.inside,
         )
+        return accept([replace(item, file=item.file or str(self.path)) for item in found], waived)
 
     def _finished(self, fit: HullFit, findings: Sequence[Finding], waived: frozenset[str]) -> HullFit:
         """The fit in the scaling that was asked for, with all findings in its provenance."""
@@ -434,12 +391,3 @@ class Campaign:
         if progress:
             progress("comparing", len(fits), len(fits))
         return tables
-
-    def output_conventions(self, fit: HullFit) -> Conventions:
-        """Conventions in which the result is written."""
-        return preset(self.file.output.scaling, fit.derivatives.conventions)
-
-
-def _heading(run: Run, reference: float, time: np.ndarray) -> np.ndarray:
-    """Prescribed heading against the carriage at the given times, rad."""
-    return prescribed_motion(run, reference).at(time)["psi"] - run.yaw_rate * time

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import difflib
 import tomllib
 from pathlib import Path
 from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
-from ..core.conventions import Conventions
+from ..core.conventions import Conventions, preset
 from ..core.errors import CampaignError, TowtankError
 from ..core.hull_models import HULL_MODELS, hull_model
 from ..core.ship import Ship
 from ..core.terms import Term, parse_terms
-from ..formats.channels import ChannelMap
+from ..formats.channels import Channel, ChannelMap
+from .audit_rules import require_rules
 
 
 class _Section(BaseModel):
@@ -35,7 +37,6 @@ class Reader(_Section):
     format: str = "auto"
     sheet: str | None = None
     group: str | None = None
-    condition: str | None = None
 
 
 class Inertia(_Section):
@@ -57,6 +58,8 @@ class Inertia(_Section):
     def _complete(self) -> Inertia:
         if self.inside and not self.dry_runs and (self.mass is None or self.Izz is None):
             raise ValueError("inside = true needs mass and Izz, or dry_runs = true")
+        if self.dry_runs and not self.inside:
+            raise ValueError("dry_runs = true needs inside = true")
         return self
 
 
@@ -117,7 +120,6 @@ class Fit(_Section):
     covariance: Literal["model", "cluster", "bootstrap"] = "model"
     staged: bool = False
     group_by: tuple[Literal["depth", "speed", "heel"], ...] = ("depth",)
-    scaling: str = "lt"
     candidates: list[str] = Field(default_factory=list)
     range_limits: list[float] = Field(default_factory=list)
     bounds: dict[str, tuple[float | None, float | None]] = Field(default_factory=dict)
@@ -150,6 +152,16 @@ class Fit(_Section):
         constraints = self.bounds or self.equalities or self.prior
         if constraints and self.estimator != "constrained":
             raise ValueError("bounds, equalities and prior need estimator = 'constrained'")
+        return self
+
+    @model_validator(mode="after")
+    def _what_belongs_to_least_squares(self) -> Fit:
+        least_squares = self.estimator in ("wls", "ols")
+        if self.staged and not least_squares:
+            raise ValueError(f"staged = true goes with estimator 'wls' or 'ols', not '{self.estimator}'")
+        if self.covariance != "model" and (self.staged or not least_squares):
+            what = "staged = true" if self.staged else f"estimator '{self.estimator}'"
+            raise ValueError(f"covariance '{self.covariance}' is that of plain least squares, not of {what}")
         return self
 
     def hull_terms(self) -> tuple[Term, ...] | None:
@@ -200,6 +212,15 @@ class Output(_Section):
     series_in_report: int = Field(default=6, ge=0)
     scaling: str = "lt"
 
+    @field_validator("scaling")
+    @classmethod
+    def _known(cls, value: str) -> str:
+        try:
+            preset(value, Conventions())
+        except TowtankError as error:
+            raise ValueError(str(error)) from None
+        return value
+
 
 class CampaignFile(_Section):
     """A whole campaign file."""
@@ -224,7 +245,26 @@ class CampaignFile(_Section):
             raise ValueError("a campaign needs [[runs]] or [points]")
         if self.runs and self.channels is None:
             raise ValueError("[[runs]] need a [channels] map")
+        if self.channels is not None and "time" not in self.channels.channels:
+            raise ValueError('[channels] need a time -> add e.g. time = "Time [s]"')
         return self
+
+    @field_validator("ship")
+    @classmethod
+    def _numbers(cls, value: dict[str, Any]) -> dict[str, Any]:
+        for key, item in value.items():
+            if key != "name" and (isinstance(item, bool) or not isinstance(item, int | float)):
+                raise ValueError(f"{key} = {item!r} is not a number -> give it in SI units")
+        return value
+
+    @field_validator("accept")
+    @classmethod
+    def _rules(cls, value: list[str]) -> list[str]:
+        try:
+            require_rules(value)
+        except TowtankError as error:
+            raise ValueError(str(error)) from None
+        return value
 
     def make_ship(self) -> Ship:
         """The ship of the campaign."""
@@ -233,6 +273,20 @@ class CampaignFile(_Section):
     def make_conventions(self) -> Conventions:
         """Conventions of the measured data and of the test matrix."""
         return Conventions.from_dict(self.conventions)
+
+
+_SECTIONS: dict[str, type[BaseModel]] = {
+    "campaign": Heading,
+    "channels": Channel,
+    "reader": Reader,
+    "inertia": Inertia,
+    "reduction": Reduction,
+    "points": Points,
+    "fit": Fit,
+    "shared_bias": SharedBias,
+    "equalities": Equality,
+    "output": Output,
+}
 
 
 def load_campaign_file(path: str | Path) -> CampaignFile:
@@ -254,7 +308,9 @@ def load_campaign_file(path: str | Path) -> CampaignFile:
     except UnicodeDecodeError:
         raise CampaignError("not a text file", cure="a campaign file is TOML in utf-8", file=path) from None
     except OSError as error:
-        raise CampaignError(f"not readable: {error.strerror}", file=path) from None
+        raise CampaignError(
+            f"not readable ({error.strerror})", cure="check the path and its permissions", file=path
+        ) from None
     except tomllib.TOMLDecodeError as error:
         raise CampaignError(f"not valid TOML: {error}", cure="mend the syntax there", file=path) from None
     return validated(data, path)
@@ -264,21 +320,36 @@ def validated(data: dict[str, Any], path: Path) -> CampaignFile:
     """Campaign from a mapping, with errors that name the key."""
     try:
         campaign = CampaignFile.model_validate(data)
-        campaign.make_ship()
-        campaign.make_conventions()
     except ValidationError as error:
-        first = error.errors()[0]
-        key = ".".join(str(part) for part in first["loc"])
-        message = first["msg"].removeprefix("Value error, ")
-        if first["type"] == "extra_forbidden":
-            message = "unknown key"
-        more = f" (and {error.error_count() - 1} more)" if error.error_count() > 1 else ""
-        raise CampaignError(
-            f"{message}{more}",
-            cure="see the campaign file reference (towtank help-campaign)",
-            file=path,
-            place=f"key '{key}'" if key else "",
-        ) from None
-    except TowtankError as error:
-        raise CampaignError(error.cause, cure=error.cure, file=path, place=error.place) from None
+        raise _of_the_user(error, path) from None
+    for place, make in (("[ship]", campaign.make_ship), ("[conventions]", campaign.make_conventions)):
+        try:
+            make()
+        except TowtankError as error:
+            cure = error.cure or f"complete or correct {place}"
+            raise CampaignError(error.cause, cure=cure, file=path, place=error.place or place) from None
     return campaign
+
+
+def _of_the_user(error: ValidationError, path: Path) -> CampaignError:
+    """The first fault that the validation found, in the user's words."""
+    first = error.errors()[0]
+    keys = [str(part) for part in first["loc"]]
+    # A validator of ours may bring the cure along.
+    cause, _, cure = first["msg"].removeprefix("Value error, ").partition(" -> ")
+    if first["type"] == "extra_forbidden":
+        section = next((_SECTIONS[key] for key in reversed(keys[:-1]) if key in _SECTIONS), CampaignFile)
+        close = difflib.get_close_matches(keys[-1], section.model_fields, n=3, cutoff=0.6)
+        cause = "unknown key"
+        cure = f"closest: {', '.join(close)}" if close else f"keys here are {', '.join(section.model_fields)}"
+    elif first["type"] == "missing":
+        cause, cure = "the key is missing", "add it"
+    elif first["type"] != "value_error":
+        cause = f"{cause[:1].lower()}{cause[1:]}, not {first['input']!r}"
+    more = f" (and {error.error_count() - 1} more)" if error.error_count() > 1 else ""
+    return CampaignError(
+        f"{cause}{more}",
+        cure=cure or "correct it in the campaign file",
+        file=path,
+        place=f"key '{'.'.join(keys)}'" if keys else "",
+    )

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import csv
 import glob
 import math
+import os
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -46,9 +48,18 @@ def expand_runs(groups: list[RunGroup], folder: Path, conventions: Conventions, 
     runs: list[Run] = []
     for number, group in enumerate(groups, start=1):
         place = f"runs[{number}]"
+        if (group.files is None) == (group.matrix is None):
+            raise CampaignError(
+                "files and matrix are both given" if group.matrix else "neither files nor matrix is given",
+                cure="give one of them",
+                file=file,
+                place=place,
+            )
         rows = _matrix_rows(group, folder, file, place) if group.matrix else _file_rows(group, folder, file, place)
         if not rows:
-            raise CampaignError("no run found", cure="name files or a matrix that exists", file=file, place=place)
+            raise CampaignError(
+                f"test matrix '{group.matrix}' has no rows", cure="add one row a run", file=file, place=place
+            )
         for row in rows:
             runs.append(_make_run(row, group, folder, conventions, file, place))
     names: dict[str, int] = {}
@@ -58,7 +69,7 @@ def expand_runs(groups: list[RunGroup], folder: Path, conventions: Conventions, 
         if names[run.name] > 1:
             if run.file is None or sum(other.file == run.file for other in runs) > 1:
                 raise CampaignError(f"two runs are called '{run.name}'", cure="name each run once", file=file)
-            runs[position] = replace(run, name=str(run.file.relative_to(folder)) if run.file else run.name)
+            runs[position] = replace(run, name=Path(os.path.relpath(run.file, folder)).as_posix())
     return runs
 
 
@@ -68,11 +79,19 @@ def _matrix_rows(group: RunGroup, folder: Path, file: Path, place: str) -> list[
     path = folder / str(group.matrix)
     try:
         frame = pd.read_csv(path, sep=None, engine="python", comment="#", skipinitialspace=True)
-    except FileNotFoundError:
-        raise CampaignError(f"test matrix '{group.matrix}' not found", file=file, place=place) from None
-    except (ValueError, UnicodeDecodeError) as error:
+    except OSError as error:
         raise CampaignError(
-            f"test matrix '{group.matrix}' is not a table: {error}", file=file, place=place
+            f"test matrix '{group.matrix}' cannot be read ({error.strerror})",
+            cure="name a table; names start at the folder of the campaign file",
+            file=file,
+            place=place,
+        ) from None
+    except (ValueError, csv.Error) as error:
+        raise CampaignError(
+            f"test matrix '{group.matrix}' is not a table: {error}",
+            cure="write a CSV file with a row of names and one row a run",
+            file=file,
+            place=place,
         ) from None
     frame.columns = [str(column).strip() for column in frame.columns]
     if "file" not in frame and "name" not in frame:
@@ -82,9 +101,10 @@ def _matrix_rows(group: RunGroup, folder: Path, file: Path, place: str) -> list[
             file=file,
             place=place,
         )
+    shared = dict(group.model_extra or {})
     rows = []
     for position, record in enumerate(frame.to_dict("records"), start=2):
-        row = {str(key): value for key, value in record.items() if not _blank(value)}
+        row = shared | {str(key): value for key, value in record.items() if not _blank(value)}
         row["_place"] = f"{group.matrix}, row {position}"
         rows.append(row)
     return rows
@@ -95,10 +115,8 @@ def _blank(value: Any) -> bool:
 
 
 def _file_rows(group: RunGroup, folder: Path, file: Path, place: str) -> list[dict[str, Any]]:
-    if group.files is None:
-        raise CampaignError("neither files nor matrix is given", cure="add one of them", file=file, place=place)
     names: list[str] = []
-    for pattern in [group.files] if isinstance(group.files, str) else group.files:
+    for pattern in [group.files] if isinstance(group.files, str) else group.files or []:
         found = sorted(glob.glob(pattern, root_dir=folder), key=_natural)
         if not found:
             raise CampaignError(
@@ -131,9 +149,16 @@ def _from_name(pattern: str | None, name: str, file: Path, place: str) -> dict[s
     try:
         match = re.search(pattern, name)
     except re.error as error:
-        raise CampaignError(f"pattern is not a regular expression: {error}", file=file, place=place) from None
+        raise CampaignError(
+            f"not a regular expression: {error}", cure="mend it", file=file, place=f"{place}.pattern"
+        ) from None
     if match is None:
-        raise CampaignError(f"the pattern does not match '{name}'", file=file, place=f"{place}.pattern")
+        raise CampaignError(
+            f"the pattern does not match '{name}'",
+            cure="mend it, or name fewer files",
+            file=file,
+            place=f"{place}.pattern",
+        )
     return {key: value for key, value in match.groupdict().items() if value is not None}
 
 
@@ -152,12 +177,15 @@ def _make_run(
         raise CampaignError(
             "the run has no type", cure="add type = ...", file=file, place=f"{where}, run '{name}'"
         )
-    required = run_type(kind, name).required
+    try:
+        required = run_type(kind).required
+    except CampaignError as error:
+        raise CampaignError(error.cause, cure=error.cure, file=file, place=f"{where}, run '{name}'") from None
     values: dict[str, Any] = {"tare": group.tare, "series": group.series}
     for key, value in row.items():
         key, factor = _ALIASES.get(key, (key, 1.0))
         if key == "period":
-            key, value = "frequency", 2 * math.pi / _number(value, "period", file, where)
+            key, value = "frequency", 2 * math.pi / (_number(value, "period", file, where) or math.inf)
         if key not in RUN_PARAMETERS:
             raise CampaignError(
                 f"'{key}' is not a parameter of a run",
@@ -186,7 +214,9 @@ def _make_run(
                 values[key] = -values[key]
     path = folder / str(source) if source else None
     if path is not None and not path.is_file():
-        raise CampaignError(f"run file '{source}' not found", cure="mend the name", file=file, place=where)
+        raise CampaignError(
+            f"run file '{source}' not found", cure=f"mend the name; look in {folder}", file=file, place=where
+        )
     try:
         return Run(name=name, kind=kind, file=path, **values)
     except CampaignError as error:
@@ -197,7 +227,9 @@ def _number(value: Any, key: str, file: Path, place: str) -> float:
     try:
         number = float(value)
     except (TypeError, ValueError):
-        raise CampaignError(f"{key} = '{value}' is not a number", file=file, place=place) from None
+        raise CampaignError(
+            f"{key} = '{value}' is not a number", cure="give one number a run", file=file, place=place
+        ) from None
     if not math.isfinite(number):
-        raise CampaignError(f"{key} = {number} is not finite", file=file, place=place)
+        raise CampaignError(f"{key} = {number} is not finite", cure="give a number", file=file, place=place)
     return number

@@ -250,7 +250,9 @@ def comparison_cells(row: Any) -> list[str]:
         (digits_for(value, std) for value, std in ((a, a_std), (b, b_std)) if math.isfinite(value)), default=5
     )
     cells = [f"{value:.{places}f}" if math.isfinite(value) else "" for value in (a, a_std, b, b_std)]
-    percent = [f"{value + 0.0:+.1f}".replace("-0.0", "0.0") if math.isfinite(value) else "" for value in (first, second)]
+    percent = [
+        f"{value + 0.0:+.1f}".replace("-0.0", "0.0") if math.isfinite(value) else "" for value in (first, second)
+    ]
     return [
         str(name),
         *cells,

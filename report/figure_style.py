@@ -31,6 +31,11 @@ COMPONENT_COLOURS = {"X": GREEN, "Y": BLUE, "N": VERMILLION, "K": PURPLE}
 PANEL = (3.45, 2.35)
 """Width and height in inch of a figure that shares a row with others."""
 
+CROWD = 60
+"""More marks than this in one artist are drawn as an image inside the SVG."""
+
+CROWD_DPI = 140
+
 _VARIABLE_COLOURS = {INK: "var(--ink)", RULE: "var(--rule)", MUTED: "var(--muted)"}
 _COLOUR = re.compile("|".join(_VARIABLE_COLOURS), re.IGNORECASE)
 _HEADER = re.compile(r"^.*?<svg [^>]*?viewBox=\"(?P<box>[^\"]+)\"[^>]*>", re.DOTALL)
@@ -116,6 +121,17 @@ def small_legend(ax: Axes, **more: Any) -> None:
         ax.legend(handles, labels, **(settings | more))
 
 
+def _rasterise_crowds(figure: Figure) -> None:
+    """Draw hundreds of marks as one image: as single shapes they make the page heavy and slow to build."""
+    for ax in figure.axes:
+        for line in ax.lines:
+            if line.get_marker() not in ("None", None, "", " ") and np.size(line.get_xdata()) > CROWD:
+                line.set_rasterized(True)
+        for collection in ax.collections:
+            if len(collection.get_paths()) > CROWD or len(collection.get_offsets()) > CROWD:
+                collection.set_rasterized(True)
+
+
 def inline_svg(figure: Figure, name: str, text: str) -> str:
     """SVG of a figure to be put into a page.
 
@@ -133,14 +149,15 @@ def inline_svg(figure: Figure, name: str, text: str) -> str:
         An ``svg`` element without fixed size; ink, rules and muted parts take the page's ``--ink``, ``--rule`` and
         ``--muted``, so that it follows a dark page.
     """
+    _rasterise_crowds(figure)
     stream = io.BytesIO()
     settings: Any = {"svg.fonttype": "none", "svg.hashsalt": name}
     metadata = dict.fromkeys(("Creator", "Date", "Format", "Type"))
     with _WRITER, mpl.rc_context(settings):
-        figure.savefig(stream, format="svg", metadata=metadata)
+        figure.savefig(stream, format="svg", metadata=metadata, dpi=CROWD_DPI)
     source = _NOTHING.sub("", stream.getvalue().decode())
     opening = f'<svg viewBox="\\g<box>" role="img" aria-label="{escape(text, quote=True)}">'
-    source = _HEADER.sub(opening.replace("\n", " "), source, count=1)
+    source = _HEADER.sub(opening.replace("\n", " "), source, count=1).replace("xlink:href", "href")
     return _COLOUR.sub(lambda match: _VARIABLE_COLOURS[match.group().lower()], source).strip()
 
 

@@ -202,6 +202,7 @@ def test_a_frequency_in_hertz_is_told():
     run = runs_of(DTMB)["sway"]
     wrong = replace(run, frequency=run.frequency / (2 * math.pi))
     record = record_of(DTMB, run, cycles=25)
+    assert rules(audit_record(record_of(DTMB, run, cycles=5), wrong, DTMB)) == {"frequency-mismatch": "error"}
     assert (
         "Hz as rad/s"
         in next(f for f in audit_record(record, wrong, DTMB) if f.rule == "frequency-mismatch").message
@@ -264,6 +265,14 @@ def test_faults_of_time_and_channels_come_through():
     assert rules(audit_record(record.with_channels("", time=back), run, DTMB)) == {"time-overlap": "error"}
     dead = audit_record(record.with_channels("", N=np.full(len(record), 0.3)), run, DTMB)
     assert rules(dead) == {"constant-channel": "error"}
+
+
+def test_degrees_in_the_test_matrix_are_told_before_anything_else():
+    run = runs_of(DTMB)["drift 10"]
+    found = audit_record(record_of(DTMB, run), replace(run, drift_angle=10.0), DTMB)
+    assert rules(found) == {"angle-in-degrees": "error"}
+    assert "573 deg" in found[0].message
+    assert found[0].file == "drift 10.txt"
 
 
 def test_a_record_without_time_is_an_error():

@@ -92,7 +92,8 @@ def pmm_runs() -> list[Run]:
         for angle in (-16, -8, 0, 4, 12, 20)
     ]
     runs += [
-        Run(f"sway {size}", "pure_sway", speed, frequency=frequency, sway_amplitude=size) for size in (0.1, 0.3, 0.5)
+        Run(f"sway {size}", "pure_sway", speed, frequency=frequency, sway_amplitude=size)
+        for size in (0.1, 0.3, 0.5)
     ]
     for drift in (0, -8, 8):
         runs += [
