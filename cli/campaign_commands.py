@@ -14,6 +14,8 @@ AcceptRules = Annotated[
     typer.Option("--accept", metavar="RULE", help="Accept the findings of an audit rule; may be repeated."),
 ]
 
+Workers = Annotated[int, typer.Option(help="Files read at the same time.", min=1, max=64)]
+
 
 def register(app: typer.Typer) -> None:
     """Add the commands to `app`."""
@@ -26,7 +28,7 @@ def run(
     campaign: Annotated[Path, typer.Argument(help="Campaign file (TOML).")],
     out: Annotated[Path, typer.Option("--out", "-o", help="Folder for the results.")] = Path("results"),
     accept: AcceptRules = None,
-    workers: Annotated[int, typer.Option(help="Files read at the same time.", min=1, max=64)] = 2,
+    workers: Workers = 2,
     report: Annotated[bool, typer.Option(help="Write report.html.")] = True,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")] = False,
 ) -> None:
@@ -71,8 +73,11 @@ def audit(
     campaign: Annotated[Path | None, typer.Argument(help="Campaign file (TOML).")] = None,
     list_rules: Annotated[bool, typer.Option("--list", help="List every audit rule.")] = False,
     accept: AcceptRules = None,
+    workers: Workers = 2,
 ) -> None:
     """Check the files of a campaign without fitting, or list the audit rules.
+
+    Every finding is printed, not only the first; the exit status is 2 when an error is not accepted.
 
     Example: towtank audit campaign.toml
     """
@@ -87,19 +92,16 @@ def audit(
     from ..pmm.campaign import Campaign
 
     loaded = Campaign.load(campaign)
-    # Every rule is waived here so that all findings are seen, not just the first.
     with progress_bar() as progress:
-        runs, _, _ = loaded.reduce(frozenset(RULES), progress=progress)
-    findings = [finding for item in runs for finding in item.findings]
-    frame = findings_frame(findings)
-    if frame.empty:
-        typer.echo(f"{len(runs)} runs, no finding")
+        findings = loaded.audit(accept_rules=accept or (), progress=progress, workers=workers)
+    if not findings:
+        typer.echo(f"{campaign}: no finding")
         return
-    for row in frame.itertuples():
+    for row in findings_frame(findings).itertuples():
         place = ", ".join(part for part in (str(row.file), str(row.place)) if part)
-        typer.echo(f"{row.severity:<8} [{row.rule}] {place}: {row.message} -> {row.cure}")
-    waived = set(accept or ())
-    if any(f.severity == "error" and f.rule not in waived for f in findings):
+        waived = " (accepted)" if row.accepted else ""
+        typer.echo(f"{row.severity}{waived} [{row.rule}] {place}: {row.message} -> {row.cure}")
+    if any(item.severity == "error" and not item.accepted for item in findings):
         raise typer.Exit(2)
 
 

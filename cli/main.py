@@ -77,10 +77,11 @@ def main(arguments: list[str] | None = None) -> None:
     except BrokenPipeError:
         sys.stderr.close()
         sys.exit(0)
-    except PermissionError as error:
+    except OSError as error:
         if debug:
             raise
-        _fail(f"{error.filename}: permission denied -> choose a folder that you may write to", 2)
+        reason = error.strerror or str(error)
+        _fail(f"{error.filename or 'output'}: {reason} -> give a path that you may read and write", 2)
     except Exception as error:
         if debug:
             raise

@@ -123,7 +123,7 @@ _ALL = (
     Rule("amplitude-mismatch", "error", "record", "a motion is larger or smaller than the test matrix says",
          "correct the test matrix or the calibration of the channel"),
     Rule("phase-mismatch", "error", "record", "the motion is ahead of or behind the test matrix",
-         "give sway_phase and yaw_phase of the run, or set reduction.motion = 'measured' and accept this"),
+         "give sway_phase and yaw_phase of the run, or set reduction.motion = 'measured'"),
     # -- across runs -----------------------------------------------------------------------------------------
     Rule("force-sign", "error", "campaign", "forces are those by the model on the balance, not on the model",
          "set conventions.force_sign = 'by-ship', or the sign of the channel in the channel map"),

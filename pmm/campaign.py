@@ -32,6 +32,9 @@ from .run_summary import run_summary
 from .run_types import Run
 from .test_matrix import expand_runs
 
+_BYTES_WORTH_PROCESSES = 200e6
+"""Campaigns with more bytes are read in processes, which start slowly but share no interpreter lock."""
+
 Progress = Callable[[str, int, int], None]
 """Called with what is being done, how many are done, how many there are."""
 
@@ -196,7 +199,7 @@ class Campaign:
             points = self._points()
             findings += points.findings
             runs += points.runs
-        findings = [*accept((replace(item, accepted=False) for item in reader.findings), waived), *findings]
+        findings = [*(replace(item, accepted=False) for item in reader.findings), *findings]
         for group in group_runs(runs, self.file.fit.group_by).values() if runs else ():
             findings += self._cross_audit(group, None, waived)
         return accept(findings, waived)
@@ -223,7 +226,10 @@ class Campaign:
         wet = [run for run in self.runs if not run.dry]
         report = partial(progress, "reading runs") if progress else None
         work = partial(reader.read_and_reduce, plan=plan)
-        reduced = list(iter_records(wet, work, workers=workers, progress=report))
+        many = sum(run.file.stat().st_size for run in wet if run.file) > _BYTES_WORTH_PROCESSES
+        if many:
+            reader.learn(wet[0])
+        reduced = list(iter_records(wet, work, workers=workers, processes=many, progress=report))
         findings = [*reader.findings, *(item for run in reduced for item in run.findings)]
         digests = {self.path.name: file_hash(self.path)}
         digests |= {
@@ -237,8 +243,9 @@ class Campaign:
             if points.sha256:
                 digests[str(self.file.points.file)] = points.sha256
             reduced += points.runs
-        # Threads finish in any order.
-        digests |= dict(sorted(reader.digests.items()))
+        # Threads finish in any order, and processes keep their readers to themselves.
+        read = {reader.name_of(run.run.file): run.sha256 for run in reduced if run.run.file}
+        digests |= dict(sorted((reader.digests | read).items()))
         return Reduced(reduced, plan.inertia, digests, findings)
 
     def _plan(self, reader: RunReader) -> ReductionPlan:

@@ -2,35 +2,38 @@
 
 from __future__ import annotations
 
+import csv
+import io
+import json
+import os
 import re
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from ..core.errors import CampaignError, TowtankError
 from ..formats.raw_table import RawTable
-from ..formats.read import read_table
+from ..formats.read import FORMATS, read_table
 from ..formats.write import atomic_path
 
 _GUESSES = (
-    # standard name, pattern of the printed name
-    ("time", r"^(time|zeit|t)\b"),
-    ("X", r"^(f_?x|x_?force|force_?x|surge_?force|fx_?tot.*|X)$"),
-    ("Y", r"^(f_?y|y_?force|force_?y|sway_?force|fy_?tot.*|Y)$"),
-    ("N", r"^(m_?z|n|n_?moment|yaw_?moment|moment_?z|Mz_?tot.*)$"),
-    ("K", r"^(m_?x|k|k_?moment|roll_?moment|moment_?x)$"),
-    ("psi", r"^(psi|heading|yaw|yaw_?angle)$"),
-    ("y", r"^(y|y_?pos.*|sway|y_?carriage)$"),
-    ("x", r"^(x|x_?pos.*|x_?carriage)$"),
-    ("u", r"^(u|surge_?vel.*)$"),
-    ("v", r"^(v|sway_?vel.*)$"),
-    ("r", r"^(r|yaw_?rate|psi_?dot)$"),
-    ("speed", r"^(speed|v_?carriage|carriage_?speed|u_?carriage)$"),
-    ("rudder_angle", r"^(delta|rudder|rudder_?angle)$"),
+    # standard name, pattern of the printed name in any case; a force letter is told from a coordinate by its case
+    ("time", r"(time|zeit|t)\b.*"),
+    ("X", r"f_?x|x_?force|force_?x|surge_?force|fx_?tot.*|(?-i:X)"),
+    ("Y", r"f_?y|y_?force|force_?y|sway_?force|fy_?tot.*|(?-i:Y)"),
+    ("N", r"m_?z|n|n_?moment|yaw_?moment|moment_?z|mz_?tot.*"),
+    ("K", r"m_?x|k|k_?moment|roll_?moment|moment_?x|mx_?tot.*"),
+    ("psi", r"psi|heading|yaw|yaw_?angle"),
+    ("y", r"y_?pos.*|sway|y_?carriage|(?-i:y)"),
+    ("x", r"x_?pos.*|x_?carriage|(?-i:x)"),
+    ("u", r"u|surge_?vel.*"),
+    ("v", r"v|sway_?vel.*"),
+    ("r", r"r|yaw_?rate|psi_?dot"),
+    ("speed", r"speed|v_?carriage|carriage_?speed|u_?carriage"),
+    ("rudder_angle", r"delta|rudder|rudder_?angle"),
 )
 
-_ENDINGS = {
-    ".txt", ".dat", ".csv", ".tsv", ".asc", ".prn", ".out", ".xls", ".xlsx", ".mat", ".h5", ".hdf5", ".tdms"
-}  # fmt: skip
+_ENDINGS = frozenset(ending for one in FORMATS.values() for ending in one.endings)
 
 
 def draft_campaign(folder: Path, target: Path, *, replace: bool = False) -> str:
@@ -74,15 +77,15 @@ def draft_campaign(folder: Path, target: Path, *, replace: bool = False) -> str:
         )
     mapped = _guess_channels(table)
     base = target.parent
-    names = [path.relative_to(base) if path.is_relative_to(base) else path.resolve() for path in files]
-    with atomic_path(matrix) as temporary:
-        temporary.write_text(_matrix_text(names), encoding="utf-8")
-    with atomic_path(target) as temporary:
-        temporary.write_text(_campaign_text(folder, table, mapped, matrix.name), encoding="utf-8")
+    names = [Path(os.path.relpath(path, base)) for path in files]
+    with atomic_path(matrix) as rows, atomic_path(target) as text:
+        rows.write_text(_matrix_text(names), encoding="utf-8")
+        text.write_text(_campaign_text(folder, table, mapped, matrix.name), encoding="utf-8")
     columns = ", ".join(f"{name} [{table.units.get(name) or '?'}]" for name in table.columns)
     return "\n".join(
         [
             f"{len(files)} files; columns: {columns}",
+            *(f"not readable: {reason}" for reason in unread),
             f"mapped: {', '.join(f'{ours} = {theirs}' for ours, theirs in mapped.items()) or 'none'}",
             f"written: {target} and {matrix}",
             f"next: complete [ship] in {target.name} and the columns of {matrix.name}, then: towtank run {target}",
@@ -104,10 +107,8 @@ def _guess_channels(table: RawTable) -> dict[str, str]:
     mapped: dict[str, str] = {}
     for standard, pattern in _GUESSES:
         for column in table.columns:
-            # A force letter is told from a coordinate by its case.
-            flags = 0 if standard in ("x", "y", "X", "Y") else re.IGNORECASE
-            exact = column == standard
-            if column not in mapped.values() and (exact or re.match(pattern, column, flags)):
+            name = column.strip().replace(" ", "_")
+            if column not in mapped.values() and re.fullmatch(pattern, name, re.IGNORECASE):
                 mapped.setdefault(standard, column)
     return mapped
 
@@ -118,16 +119,21 @@ def _matrix_text(names: Sequence[Path]) -> str:
         "#   steady_yaw, steady_yaw_drift, static_heel; speed m/s, angles deg, amplitudes m, frequency_hz Hz\n"
         "file,type,speed,drift_angle,yaw_rate,frequency_hz,sway_amplitude,rudder_angle,heel\n"
     )
-    return head + "".join(f"{name.as_posix()},,,,,,,,\n" for name in names)
+    text = io.StringIO(head)
+    text.seek(0, io.SEEK_END)
+    csv.writer(text, lineterminator="\n").writerows([name.as_posix(), *[""] * 8] for name in names)
+    return text.getvalue()
 
 
 def _campaign_text(folder: Path, table: RawTable, mapped: dict[str, str], matrix: str) -> str:
+    # A JSON text is a TOML text.
+    quoted = partial(json.dumps, ensure_ascii=False)
     lines = [
         "[campaign]",
-        f'name = "{folder.resolve().name}"',
+        f"name = {quoted(folder.resolve().name)}",
         "",
         "[ship]                       # particulars of the model in SI: complete these",
-        f'name = "{folder.resolve().name}"',
+        f"name = {quoted(folder.resolve().name)}",
         "L = nan                      # length between perpendiculars, m",
         "B = nan                      # breadth, m",
         "T = nan                      # draught, m",
@@ -147,10 +153,10 @@ def _campaign_text(folder: Path, table: RawTable, mapped: dict[str, str], matrix
     for ours, theirs in mapped.items():
         unit = table.units.get(theirs)
         note = "" if unit else "   # the file names no unit: check"
-        lines.append(f'{ours} = {{ column = "{theirs}", unit = "{unit or "SI"}" }}{note}')
+        lines.append(f"{ours} = {{ column = {quoted(theirs)}, unit = {quoted(unit or 'SI')} }}{note}")
     spare = [name for name in table.columns if name not in mapped.values()]
     if spare:
-        lines.append(f"# not mapped: {', '.join(spare)}")
+        lines.append(f"# not mapped: {' '.join(', '.join(spare).split())}")
     lines += [
         "",
         "[inertia]",
@@ -160,7 +166,7 @@ def _campaign_text(folder: Path, table: RawTable, mapped: dict[str, str], matrix
         "# Izz = 0.0                  # about its centre of gravity, kg m2",
         "",
         "[[runs]]",
-        f'matrix = "{matrix}"',
+        f"matrix = {quoted(matrix)}",
         "",
         "[fit]",
         '# model = "mmg"            # the run types choose the terms when this is left out',

@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_valida
 from ..core.conventions import Conventions, preset
 from ..core.errors import CampaignError, TowtankError
 from ..core.hull_models import HULL_MODELS, hull_model
+from ..core.motion import origin_position
 from ..core.ship import Ship
 from ..core.terms import Term, parse_terms
 from ..formats.channels import Channel, ChannelMap
@@ -328,7 +329,32 @@ def validated(data: dict[str, Any], path: Path) -> CampaignFile:
         except TowtankError as error:
             cure = error.cure or f"complete or correct {place}"
             raise CampaignError(error.cause, cure=cure, file=path, place=error.place or place) from None
-    return campaign
+    for key in campaign.conventions:
+        if key in _ELSEWHERE:
+            raise CampaignError(
+                f"{key} is no convention of measured data", cure=_ELSEWHERE[key], file=path, place="[conventions]"
+            )
+    return _at_origin(campaign)
+
+
+_ELSEWHERE = {
+    "force_scaling": "give points.scaling for the input, output.scaling for the result",
+    "velocity_scale": "give reduction.nondimensional_speed",
+    "sway_variable": "fit terms of v or of the drift angle",
+    "rigid_body_inertia": "give inertia.inside",
+    "added_mass_coriolis": "leave it out: a balance feels them, and output.scaling converts the result",
+    "wave_heading": "leave it out: captive tests in calm water have none",
+}
+"""Conventions of derivative sets that measured data do not have, and the key that is meant."""
+
+
+def _at_origin(campaign: CampaignFile) -> CampaignFile:
+    """The campaign with moment and motion at the origin of its conventions where [reduction] names no point."""
+    ship = campaign.make_ship()
+    place = origin_position(campaign.make_conventions(), ship) * ship.L
+    named = campaign.reduction.model_fields_set
+    points = {key: place for key in ("moment_x", "position_x") if place and key not in named}
+    return campaign.model_copy(update={"reduction": campaign.reduction.model_copy(update=points)})
 
 
 def _of_the_user(error: ValidationError, path: Path) -> CampaignError:

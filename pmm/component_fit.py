@@ -81,6 +81,9 @@ def fit_component(
     FitError
         When a term is not excited, or terms cannot be separated; the message names them.
     """
+    fixed = {name: value for name, value in settings.fixed.items() if name in rows.names}
+    if fixed:
+        return _with_fixed(rows, settings, stages, prior, fixed)
     if len(rows.response) < len(rows.terms):
         raise FitError(
             f"{len(rows.response)} data for {len(rows.terms)} terms of {rows.component}",
@@ -92,18 +95,7 @@ def fit_component(
     known = bool(np.isfinite(rows.sd).all())
     weighted = known and settings.estimator != "ols"
     weights = 1.0 / (rows.sd**2 + scatter**2) if weighted else np.ones(len(rows.response))
-    names = rows.names
-    fixed = {name: value for name, value in settings.fixed.items() if name in names}
-    if fixed:
-        return _with_fixed(rows, settings, stages, prior, fixed)
-    fit = fit_linear(
-        rows.design,
-        rows.response,
-        names,
-        weights=weights,
-        groups=rows.run,
-        covariance="cluster" if settings.covariance == "cluster" else "model",
-    )
+    fit = _least_squares(rows, settings, weights)
     notes: list[str] = []
     if not known:
         notes.append("no noise estimate for some runs: all rows count equally")
@@ -115,6 +107,26 @@ def fit_component(
     return ComponentFit(
         rows, params, cov, influence, fit, weights, scatter if known else 0.0, row_sd, tuple(notes), extra
     )
+
+
+_MENDS_DEPENDENCE = ("ridge", "tsvd", "constrained")
+"""Estimators that choose among the solutions of data which cannot separate all terms."""
+
+
+def _least_squares(rows: ForceRows, settings: Fit, weights: np.ndarray) -> LinearFit:
+    try:
+        return fit_linear(
+            rows.design,
+            rows.response,
+            rows.names,
+            weights=weights,
+            groups=rows.run,
+            covariance="cluster" if settings.covariance == "cluster" else "model",
+            allow_singular=settings.estimator in _MENDS_DEPENDENCE,
+        )
+    except FitError as error:
+        cure = error.cure.replace("allow_singular=True", "set fit.estimator = 'ridge', 'tsvd' or 'constrained'")
+        raise FitError(error.cause, cure=cure) from None
 
 
 def _unexcited_refused(rows: ForceRows) -> ForceRows:
@@ -146,6 +158,12 @@ def _with_fixed(
         rows.run,
         rows.harmonic,
     )
+    note = "held fixed: " + ", ".join(f"{name} = {value:g}" for name, value in fixed.items())
+    if not free:
+        n = len(rows.response)
+        spread = np.full(n, float(np.sqrt(np.mean(reduced.response**2))) if n else 0.0)
+        nothing = np.zeros((len(held), len(held)))
+        return ComponentFit(rows, held, nothing, np.zeros((len(held), n)), None, np.ones(n), 0.0, spread, (note,))
     inner = fit_component(reduced, settings.model_copy(update={"fixed": {}}), stages, prior)
     params = held.copy()
     params[free] = inner.params
@@ -153,7 +171,6 @@ def _with_fixed(
     cov[np.ix_(free, free)] = inner.cov
     influence = np.zeros((len(held), len(rows.response)))
     influence[free] = inner.influence
-    note = "held fixed: " + ", ".join(f"{name} = {value:g}" for name, value in fixed.items())
     return ComponentFit(
         rows,
         params,
@@ -326,7 +343,7 @@ def _constrained(
         bounds=limits,
         equalities=equations,
         prior=wishes,
-        noise_sd=float(np.sqrt(scale)),
+        noise_sd=float(np.sqrt(scale)) or None,
         weights=weights,
     )
     if result.active:
@@ -335,6 +352,6 @@ def _constrained(
     return (
         np.asarray(result.params),
         cov,
-        cov @ (rows.design * weights[:, None]).T / scale,
+        cov @ (rows.design * weights[:, None]).T / float(result.scale),
         {"active": result.active},
     )

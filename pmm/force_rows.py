@@ -31,7 +31,7 @@ class ForceRows:
     run : ndarray of int, shape (n,)
         Index of each row's run.
     harmonic : ndarray of int, shape (n,)
-        0 mean, 1 cos 1, 2 sin 1, 3 cos 2, ...
+        0 mean, 1 cos 1, 2 sin 1, 3 cos 2, ...; -1, -2, ... the condensed rows of a fit in the time domain.
     """
 
     component: str
@@ -112,7 +112,7 @@ def _moderated_sd(rows: ForceRows, runs: Sequence[ReducedRun], dof: np.ndarray) 
     length = np.array([run.window.count * run.window.step for run in runs])[rows.run]
     kind = np.array([run.order > 0 for run in runs])[rows.run]
     # Coefficients of one harmonic share a density; the mean has half the variance of a cosine.
-    band = np.where(rows.harmonic == 0, 0, (rows.harmonic + 1) // 2)
+    band = np.where(rows.harmonic <= 0, 0, (rows.harmonic + 1) // 2)
     density = sd**2 * length
     floor = max((1e-10 * np.abs(rows.response).max(initial=0.0)) ** 2, np.finfo(float).tiny)
     density = np.maximum(density, floor * length)

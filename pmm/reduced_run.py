@@ -86,6 +86,11 @@ class TimeRows:
         stacked = np.column_stack([*columns.values(), *scaled.values()])
         return cls(np.asarray(np.linalg.qr(stacked, mode="r")), tuple(columns), tuple(scaled), dict(sd))
 
+    @property
+    def constant(self) -> np.ndarray:
+        """Rows of a constant force of one unit, shape (q,)."""
+        return self.triangle[:, self.factors.index(())]
+
     def rows(self, component: str, terms: Sequence[Term]) -> tuple[np.ndarray, np.ndarray]:
         """Design and response of one component.
 
@@ -137,6 +142,8 @@ class ReducedRun:
     sha256 : str
     series : mapping of str to ndarray
         Force series of the window in N for the report; kept for a few runs only.
+    zero_sd : mapping of str to float
+        Standard error in N of the zero level that was subtracted; all runs with this zero share the error.
     samples : TimeRows or None
         All samples of the window, condensed for a fit in the time domain.
     """
@@ -156,6 +163,7 @@ class ReducedRun:
     findings: tuple[Finding, ...] = ()
     sha256: str = ""
     series: Mapping[str, np.ndarray] = field(default_factory=dict)
+    zero_sd: Mapping[str, float] = field(default_factory=dict)
     samples: TimeRows | None = None
     columns: dict[tuple[Factor, ...], np.ndarray] = field(default_factory=dict, repr=False)
 
@@ -183,7 +191,7 @@ class ReducedRun:
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Regression rows of one component: design, response, standard errors, their dof, harmonic numbers.
 
-        In the time domain there are as many rows as condensed columns, all counted as harmonic 0.
+        In the time domain there are as many rows as condensed columns, numbered -1, -2, ...
         """
         if self.samples is None:
             size = len(self.scaled[component])
@@ -197,7 +205,7 @@ class ReducedRun:
             response,
             np.full(size, self.samples.sd[component]),
             np.full(size, lowest),
-            np.zeros(size, dtype=int),
+            -1 - np.arange(size),
         )
 
     def state(self) -> dict[str, float]:

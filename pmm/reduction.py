@@ -99,7 +99,7 @@ def _reduce(record: Record, run: Run, plan: ReductionPlan, findings: tuple[Findi
     settings = plan.settings
     ship = plan.ship if run.depth is None else replace(plan.ship, depth=run.depth)
     record = home_axes(record, plan.conventions)
-    record = _without_zero_level(record, run, plan)
+    record, zero_sd = _without_zero_level(record, run, plan)
     record = _low_passed(record, settings.lowpass)
     omega = run.frequency
     if run.harmonic and settings.frequency == "found":
@@ -134,6 +134,9 @@ def _reduce(record: Record, run: Run, plan: ReductionPlan, findings: tuple[Findi
         result = _harmonics(window, omega, settings.harmonics, forces, scaled)
     else:
         result = _means(forces, scaled)
+    for name, error in zero_sd.items():
+        unit = force_unit(name, "LT", ship, float(np.sqrt(np.mean(speed**2))))
+        result.scaled_sd[name][0] = math.hypot(result.scaled_sd[name][0], error / unit)
     order = settings.harmonics if run.harmonic else 0
     if order == 0 and not plan.time_domain:
         at = {name: values[:1] for name, values in at.items()}
@@ -145,7 +148,8 @@ def _reduce(record: Record, run: Run, plan: ReductionPlan, findings: tuple[Findi
         line = 1 if run.harmonic else 0
         # sd of a coefficient is sqrt(2 S/n) for a cosine, sqrt(S/n) for a mean
         noise = {name: sd[line] * root / math.sqrt(1 + line) for name, sd in result.scaled_sd.items()}
-        samples = TimeRows.condensed(columns, scaled, noise)
+        # The constant is always there: it is what an error of the zero looks like.
+        samples = TimeRows.condensed({(): np.ones(window.count), **columns}, scaled, noise)
     if result.projector is not None and columns:
         columns = projected(columns, result.projector)
     elif columns:
@@ -193,21 +197,24 @@ def zero_level(record: Record, plan: ReductionPlan) -> dict[str, float]:
     return {name: float(np.mean(record[name])) for name in FORCES if name in record}
 
 
-def _without_zero_level(record: Record, run: Run, plan: ReductionPlan) -> Record:
+def _without_zero_level(record: Record, run: Run, plan: ReductionPlan) -> tuple[Record, dict[str, float]]:
+    """Record less its zero, and the standard error in N of a zero that belongs to this run alone."""
     if run.tare:
         levels = (plan.tare or {})[run.tare]
         changed = {name: record[name] - level for name, level in levels.items() if name in record}
-        return record.with_channels(f"zero level of '{run.tare}' subtracted", **changed)
+        return record.with_channels(f"zero level of '{run.tare}' subtracted", **changed), {}
     if plan.settings.tare_window is None:
-        return record
+        return record, {}
     start, stop = plan.settings.tare_window
     rows = slice(*np.searchsorted(record.time, (start, stop)))
     if rows.stop - rows.start < 2:
         raise FitError(
             f"no sample lies in the tare window {start:g} to {stop:g} s", cure="mend reduction.tare_window"
         )
-    changed = {name: record[name] - record[name][rows].mean() for name in FORCES if name in record}
-    return record.with_channels(f"zero level of {start:g}-{stop:g} s subtracted", **changed)
+    zeros = {name: mean_with_error(record[name][rows]) for name in FORCES if name in record}
+    changed = {name: record[name] - zero.mean for name, zero in zeros.items()}
+    errors = {name: float(zero.se) for name, zero in zeros.items()}
+    return record.with_channels(f"zero level of {start:g}-{stop:g} s subtracted", **changed), errors
 
 
 def _low_passed(record: Record, cutoff: float) -> Record:

@@ -18,6 +18,7 @@ from ..formats.channels import ChannelMap, rotate_to_model
 from ..formats.dialect import Dialect
 from ..formats.raw_table import RawTable
 from ..formats.read import read_table
+from ..identify.autocorrelation import mean_with_error
 from .audit_record import audit_record, audit_table
 from .campaign_file import CampaignFile
 from .planar_motion import prescribed_motion
@@ -45,6 +46,8 @@ class RunReader:
         sha256 of every file read so far.
     findings : list of Finding
         What was seen in files that are no runs to fit: zero runs and runs in air.
+    zero_sd : dict of str to dict
+        Standard errors of the zero levels in N and N m, by name of the zero run.
     """
 
     settings: CampaignFile
@@ -54,6 +57,7 @@ class RunReader:
     waived: frozenset[str] = frozenset()
     digests: dict[str, str] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
+    zero_sd: dict[str, dict[str, float]] = field(default_factory=dict)
     # How the text files of each ending were understood: the next file is read faster with it.
     _dialects: dict[str, Dialect] = field(default_factory=dict)
     # Zero levels in the axes of the carriage, by name of the zero run, to be turned with the model.
@@ -78,19 +82,19 @@ class RunReader:
         record, findings = self._record(run)
         findings = tuple(accept(findings, self.waived))
         stop_on_error(findings)
-        return reduce_run(record, self._without_tare(run), plan, findings)
+        result = reduce_run(record, self._without_tare(run), plan, findings)
+        return replace(result, run=replace(result.run, tare=run.tare), zero_sd=self.zero_sd.get(run.tare, {}))
 
     def look_at(self, run: Run, plan: ReductionPlan) -> tuple[tuple[Finding, ...], ReducedRun | None]:
         """All findings about one run, and what it reduces to when no error among them makes that senseless."""
         record, findings = self._record(run)
         findings = tuple(accept(findings, self.waived))
-        errors = {item.rule for item in findings if item.severity == "error" and not item.accepted}
-        if errors:
+        if any(item.severity == "error" and not item.accepted for item in findings):
             return findings, None
         return findings, reduce_run(record, self._without_tare(run), plan, findings)
 
     def _record(self, run: Run) -> tuple[Record, list[Finding]]:
-        """Record in SI and home axes, with the findings about header and channels."""
+        """Record in SI in the axes of the data, with the findings about header and channels."""
         assert run.file is not None
         table = self._table(run.file)
         findings = list(audit_table(table, run, ship=self.ship))
@@ -100,8 +104,8 @@ class RunReader:
         record = self.channels.apply(table, psi=psi)
         if run.tare in self._carriage_zeros:
             record = self._turned_zero_taken_off(record, run, psi)
-        record = home_axes(record, self.conventions)
-        findings += audit_record(record, run, self.ship, reference=self.settings.reduction.position_x)
+        turned = home_axes(record, self.conventions)
+        findings += audit_record(turned, run, self.ship, reference=self.settings.reduction.position_x)
         return record, findings
 
     def _without_tare(self, run: Run) -> Run:
@@ -127,8 +131,17 @@ class RunReader:
             raise ReadError(error.cause, cure=error.cure, file=error.file or path, place=place) from None
         if table.dialect is not None:
             self._dialects[path.suffix] = table.dialect
-        self.digests[Path(os.path.relpath(path, self.path.parent)).as_posix()] = table.sha256
+        self.digests[self.name_of(path)] = table.sha256
         return table
+
+    def learn(self, run: Run) -> None:
+        """Read one file to learn the dialect of its kind, which then travels with the reader to every process."""
+        if run.file is not None:
+            self._table(run.file)
+
+    def name_of(self, path: Path) -> str:
+        """Name of a file relative to the campaign file."""
+        return Path(os.path.relpath(path, self.path.parent)).as_posix()
 
     def _heading(self, run: Run, time: np.ndarray) -> np.ndarray:
         """Prescribed heading against the carriage at the given times in rad, in the axes of the data."""
@@ -149,6 +162,8 @@ class RunReader:
             For a zero run that does not exist.
         """
         levels: dict[str, Mapping[str, float]] = {}
+        if not any(run.tare for run in runs):
+            return levels
         by_name = {run.name: run.file for run in runs}
         fixed = self.channels.forces == "carriage-fixed"
         channels = self.channels.model_copy(update={"forces": "model-fixed"})
@@ -180,6 +195,9 @@ class RunReader:
                         file=path,
                         place=f"channel {name}",
                     )
+            self.zero_sd[run.tare] = {
+                name: float(mean_with_error(record[name]).se) for name in FORCES if name in record
+            }
         return levels
 
     def _turned_zero_taken_off(self, record: Record, run: Run, psi: np.ndarray | None) -> Record:

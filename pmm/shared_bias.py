@@ -36,6 +36,11 @@ def bias_effects(
         Source -> (standard uncertainty of the source, d params / d source over all components in order).
     """
     effects: dict[str, tuple[float, np.ndarray]] = {}
+    if (bias.speed or bias.drift_angle or bias.moment_x) and any(run.samples is not None for run in runs):
+        raise FitError(
+            "a shared bias of speed, drift angle or moment place is not propagated in the time domain",
+            cure="use domain = 'harmonic'",
+        )
 
     def add(source: str, u: float, change: Change) -> None:
         if u:
@@ -54,6 +59,7 @@ def bias_effects(
     for component, u in bias.offset.items():
         _check(component, components)
         add(f"offset of {component}", u, offset(component))
+    _add_zero_errors(runs, components, effects)
     add(
         "carriage speed",
         bias.speed,
@@ -62,6 +68,24 @@ def bias_effects(
     add("drift angle", bias.drift_angle, lambda c, fit: _motion_change(runs, fit, _turned, 1e-4))
     add("place of the moment", bias.moment_x, lambda c, fit: _lever(runs, fit, components, c))
     return effects
+
+
+def _add_zero_errors(
+    runs: Sequence[ReducedRun],
+    components: Mapping[str, ComponentFit],
+    effects: dict[str, tuple[float, np.ndarray]],
+) -> None:
+    """Errors of zero runs: every run from which the same zero was subtracted has the same error."""
+    for zero in dict.fromkeys(run.run.tare for run in runs if run.run.tare):
+        shared = np.array([run.run.tare == zero for run in runs])
+        sd = next((run.zero_sd for run in runs if run.run.tare == zero), {})
+        for component in components:
+            if sd.get(component):
+                parts = [
+                    fit.influence @ (_offset(runs, fit, c) * shared[fit.rows.run] * (c == component))
+                    for c, fit in components.items()
+                ]
+                effects[f"zero run '{zero}', {component}"] = (sd[component], np.concatenate(parts))
 
 
 def bias_covariance(
@@ -94,8 +118,16 @@ def _check(component: str, components: Mapping[str, ComponentFit]) -> None:
 
 
 def _offset(runs: Sequence[ReducedRun], fit: ComponentFit, component: str) -> np.ndarray:
-    unit = np.array([force_unit(component, "LT", run.ship, run.motion.speed) for run in runs])
-    return np.where(fit.rows.harmonic == 0, 1.0 / unit[fit.rows.run], 0.0)
+    """Change of the response rows for one newton (newton-metre) of zero error."""
+    effect = np.zeros(len(fit.rows.response))
+    for index in np.unique(fit.rows.run).tolist():
+        run, own = runs[index], fit.rows.run == index
+        harmonic = fit.rows.harmonic[own]
+        constant = (harmonic == 0).astype(float)
+        if run.samples is not None:
+            constant = run.samples.constant[-1 - harmonic]
+        effect[own] = constant / force_unit(component, "LT", run.ship, run.motion.speed)
+    return effect
 
 
 def _faster(motion: PlanarMotion, step: float) -> PlanarMotion:

@@ -17,6 +17,8 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import same_color, to_rgba
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
@@ -31,10 +33,8 @@ COMPONENT_COLOURS = {"X": GREEN, "Y": BLUE, "N": VERMILLION, "K": PURPLE}
 PANEL = (3.45, 2.35)
 """Width and height in inch of a figure that shares a row with others."""
 
-CROWD = 60
-"""More marks than this in one artist are drawn as an image inside the SVG."""
-
-CROWD_DPI = 140
+CROWD, CROWD_DPI = 300, 160
+"""More marks than this in one artist are drawn as an image inside the SVG, with this resolution."""
 
 _VARIABLE_COLOURS = {INK: "var(--ink)", RULE: "var(--rule)", MUTED: "var(--muted)"}
 _COLOUR = re.compile("|".join(_VARIABLE_COLOURS), re.IGNORECASE)
@@ -122,14 +122,23 @@ def small_legend(ax: Axes, **more: Any) -> None:
 
 
 def _rasterise_crowds(figure: Figure) -> None:
-    """Draw hundreds of marks as one image: as single shapes they make the page heavy and slow to build."""
+    """Draw hundreds of marks as one image: as single shapes they make the page heavy and slow to build.
+
+    An image cannot follow the page, so ink becomes a grey that is seen on light and on dark paper.
+    """
     for ax in figure.axes:
         for line in ax.lines:
             if line.get_marker() not in ("None", None, "", " ") and np.size(line.get_xdata()) > CROWD:
                 line.set_rasterized(True)
+                if same_color(line.get_color(), INK):
+                    line.set_color(MUTED)
         for collection in ax.collections:
-            if len(collection.get_paths()) > CROWD or len(collection.get_offsets()) > CROWD:
+            if len(collection.get_paths()) > CROWD or np.shape(collection.get_offsets())[0] > CROWD:
                 collection.set_rasterized(True)
+                if isinstance(collection, LineCollection) and np.allclose(
+                    collection.get_edgecolor(), to_rgba(INK)
+                ):
+                    collection.set_color(MUTED)
 
 
 def inline_svg(figure: Figure, name: str, text: str) -> str:

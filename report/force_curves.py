@@ -35,7 +35,7 @@ class SweepCurve:
     Attributes
     ----------
     label : str
-        The variables that stay and are not zero, e.g. ``r′ = 0.3``.
+        The variables that differ from curve to curve, e.g. ``r′ = 0.3``; empty for a single curve.
     runs : tuple of int
         Indices into the runs of the fit.
     x : ndarray
@@ -71,35 +71,48 @@ def sweeps(fit: HullFit, most: int = 6) -> list[Sweep]:
     ----------
     fit : HullFit
     most : int
-        Curves of one sweep at most; those with most runs stay.
+        Curves of one sweep at most: the one nearest to straight ahead, and others spread over the rest.
     """
     steady = [(index, run.state()) for index, run in enumerate(fit.runs) if run.order == 0]
     found = []
     for variable in SWEEP_LABELS:
-        families: dict[tuple[float, ...], list[tuple[int, float]]] = {}
         others = [name for name in SWEEP_LABELS if name != variable]
+        families: dict[tuple[float, ...], list[tuple[int, dict[str, float]]]] = {}
         for index, state in steady:
             key = tuple(round(state.get(name, 0.0), _DECIMALS[name]) + 0.0 for name in others)
-            families.setdefault(key, []).append((index, state.get(variable, 0.0)))
-        long = {key: runs for key, runs in families.items() if len({round(x, 6) for _, x in runs}) >= 3}
-        kept = sorted(sorted(long, key=lambda key: -len(long[key]))[:most])
-        if kept:
-            curves = [_curve(_label(key, others), sorted(long[key], key=lambda item: item[1])) for key in kept]
+            families.setdefault(key, []).append((index, state))
+        long = {
+            key: sorted(runs, key=lambda item: item[1].get(variable, 0.0))
+            for key, runs in families.items()
+            if len({round(state.get(variable, 0.0), 6) for _, state in runs}) >= 3
+        }
+        varied = [name for place, name in enumerate(others) if len({key[place] for key in long}) > 1]
+        curves = [_curve(long[key], variable, varied) for key in _spread(list(long), most)]
+        if curves:
             found.append(Sweep(variable, tuple(curves)))
     return found
 
 
-def _curve(label: str, runs: Sequence[tuple[int, float]]) -> SweepCurve:
-    return SweepCurve(label, tuple(index for index, _ in runs), np.array([x for _, x in runs]))
+def _spread(keys: list[tuple[float, ...]], most: int) -> list[tuple[float, ...]]:
+    """At most some of the keys, in order: the smallest one, and others evenly from first to last."""
+    ordered = sorted(keys)
+    if len(ordered) <= most:
+        return ordered
+    smallest = min(range(len(ordered)), key=lambda place: sum(abs(value) for value in ordered[place]))
+    places = np.linspace(0, len(ordered) - 1, most - 1).round().astype(int).tolist()
+    return [ordered[place] for place in sorted({smallest, *places})]
 
 
-def _label(key: Sequence[float], others: Sequence[str]) -> str:
-    parts = []
-    for name, value in zip(others, key, strict=True):
-        if value:
-            text = f"{np.degrees(value):.3g}°" if name in _DEGREES else f"{value:.3g}"
-            parts.append(f"{_SYMBOLS[name]} = {text}")
-    return ", ".join(parts)
+def _curve(runs: Sequence[tuple[int, dict[str, float]]], variable: str, varied: Sequence[str]) -> SweepCurve:
+    state = runs[0][1]
+    label = ", ".join(_value(name, state.get(name, 0.0)) for name in varied)
+    x = np.array([state.get(variable, 0.0) for _, state in runs])
+    return SweepCurve(label, tuple(index for index, _ in runs), x)
+
+
+def _value(name: str, value: float) -> str:
+    shown = f"{np.degrees(value) + 0.0:.3g}°" if name in _DEGREES else f"{value + 0.0:.3g}"
+    return f"{_SYMBOLS[name]} = {shown}"
 
 
 def curve_along(

@@ -12,7 +12,9 @@ from .force_curves import Sweep, curve_along, harmonic_name, interval_factor, mo
 FORCE_NAMES = {"X": "surge force X′", "Y": "sway force Y′", "N": "yaw moment N′", "K": "roll moment K′"}
 
 
-def force_fit(fit: HullFit, sweep: Sweep, component: str, *, ax: Axes | None = None) -> Axes:
+def force_fit(
+    fit: HullFit, sweep: Sweep, component: str, *, legend: bool = True, ax: Axes | None = None
+) -> Axes:
     """Steady forces against one variable.
 
     Parameters
@@ -21,6 +23,8 @@ def force_fit(fit: HullFit, sweep: Sweep, component: str, *, ax: Axes | None = N
     sweep : Sweep
         One of :func:`~towtank.report.force_curves.sweeps`.
     component : {"X", "Y", "N", "K"}
+    legend : bool
+        Name the curves inside the axes.
     ax : Axes, optional
         Axes of a new figure when not given.
 
@@ -32,14 +36,14 @@ def force_fit(fit: HullFit, sweep: Sweep, component: str, *, ax: Axes | None = N
     ax = ax if ax is not None else new_axes()
     spread = row_spread(fit, component)
     for number, curve in enumerate(sweep.curves):
-        colour, marker = CYCLE[number % len(CYCLE)], MARKERS[number % len(MARKERS)]
+        colour, marker = curve_colour(number), MARKERS[number % len(MARKERS)]
         x, value, half = curve_along(fit, curve, sweep.variable, component)
         shown = sweep.shown(x)
         ax.fill_between(shown, value - half, value + half, color=colour, alpha=0.18, linewidth=0)
         ax.plot(shown, value, color=colour, linewidth=1.4, label=curve.label or None)
         runs = [index for index in curve.runs if component in fit.runs[index].scaled]
-        measured = [float(fit.runs[index].scaled[component][0]) for index in runs]
-        bars = [spread.get((index, 0), 0.0) for index in runs]
+        measured = np.array([fit.runs[index].scaled[component][0] for index in runs])
+        bars = np.array([spread.get((index, 0), 0.0) for index in runs])
         ink = INK if len(sweep.curves) == 1 else colour
         ax.errorbar(
             sweep.shown(curve.x[[curve.runs.index(index) for index in runs]]),
@@ -53,8 +57,14 @@ def force_fit(fit: HullFit, sweep: Sweep, component: str, *, ax: Axes | None = N
         )
     ax.set_xlabel(sweep.label)
     ax.set_ylabel(f"{FORCE_NAMES[component]} [-]")
-    small_legend(ax, loc="best")
+    if legend:
+        small_legend(ax, loc="best")
     return ax
+
+
+def curve_colour(number: int) -> str:
+    """Colour of a curve of a sweep."""
+    return CYCLE[number % len(CYCLE)]
 
 
 def amplitude_fit(fit: HullFit, kind: str, component: str, *, most: int = 3, ax: Axes | None = None) -> Axes:

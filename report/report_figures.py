@@ -14,7 +14,7 @@ from ..pmm.hull_fit import HullFit
 from .derivative_figures import correlation_map, derivative_forest
 from .figure_style import Sheet, inline_svg
 from .force_curves import sweeps
-from .force_figures import amplitude_fit, force_fit
+from .force_figures import amplitude_fit, curve_colour, force_fit
 from .residual_figures import measured_against_fitted, residuals_by_run
 from .series_figures import time_series
 
@@ -35,11 +35,12 @@ class Drawing:
 
 @dataclass(frozen=True)
 class Row:
-    """Drawings that belong together, e.g. the components of one run, and the line below them."""
+    """Drawings that belong together, e.g. the components of one run, with key (colour, name) and line below."""
 
     title: str
     drawings: tuple[Drawing, ...]
     caption: str = ""
+    key: tuple[tuple[str, str], ...] = ()
 
 
 class Draughtsman:
@@ -82,8 +83,11 @@ class Draughtsman:
             name = sweep.label.split(" [")[0]
             yield Row(
                 f"Steady runs against {name}",
-                self._panels(f"force against {name}", partial(force_fit, self.fit, sweep), self.fit.components),
+                self._panels(
+                    f"force against {name}", partial(force_fit, self.fit, sweep, legend=False), self.fit.components
+                ),
                 "Points: measured, with bars of 95 %. Lines: fitted, with their 95 % band.",
+                tuple((curve_colour(n), curve.label) for n, curve in enumerate(sweep.curves) if curve.label),
             )
         for kind in self._oscillating_kinds():
             name = kind.replace("_", " ")

@@ -63,10 +63,10 @@ def runs_of(ship: Ship) -> dict[str, Run]:
 
 
 def record_of(ship: Ship, run: Run, *, noise: float = 0.02, seed: int = 0, cycles: int = 5, **more) -> Record:
-    """Record of a run at 50 Hz with AR(1) noise on the forces and a little on the motion."""
+    """Record of a run with AR(1) noise on the forces and a little on the motion."""
     rng = np.random.default_rng([seed, len(run.name)])
     length = more.get("length", cycles * run.period if run.harmonic else 30.0)
-    t = np.arange(0.0, length, 0.02)
+    t = np.arange(0.0, length, run.period / 240 if run.harmonic else 0.025)
     motion = prescribed_motion(run, more.get("reference", 0.0)).at(t)
     forces = HULLS[ship.name].forces(motion, approach_speed=run.speed)
     unit = 0.5 * ship.rho * ship.L * ship.T * run.speed**2
@@ -118,7 +118,7 @@ def test_acceleration_and_braking_of_the_carriage_are_clean():
     t = steady.time
     share = np.clip(np.minimum(t - 2.0, t[-1] - 2.0 - t) / 4.0, 0.0, 1.0)
     changed = {name: steady[name] * share**2 for name in "XYN"} | {name: steady[name] * share for name in "uv"}
-    changed["x"] = np.cumsum(steady["u"] * share) * 0.02
+    changed["x"] = np.cumsum(steady["u"] * share) * 0.025
     assert audit_record(steady.with_channels("carriage", speed=run.speed * share, **changed), run, DTMB) == []
 
 
@@ -222,6 +222,14 @@ def test_a_frequency_is_checked_on_forces_alone():
     assert rules(audit_record(forces, replace(run, frequency=1.25 * run.frequency), TANKER)) == {
         "frequency-mismatch": "error"
     }
+
+
+def test_the_phase_is_free_where_the_motion_is_measured():
+    run = runs_of(DTMB)["yaw"]
+    record = record_of(DTMB, run)
+    late = record.with_channels("", time=record.time + 0.2 * run.period)
+    assert rules(audit_record(late, run, DTMB)) == {"phase-mismatch": "error"}
+    assert audit_record(late, run, DTMB, measured_motion=True) == []
 
 
 @pytest.mark.parametrize(("factor", "severity"), [(1.02, None), (1.08, "warning"), (0.6, "error")])

@@ -8,8 +8,19 @@ from concurrent.futures import ThreadPoolExecutor
 import matplotlib as mpl
 import numpy as np
 import pytest
+from matplotlib.colors import same_color
 
-from towtank.report.figure_style import Sheet, decimated, engineering_unit, inline_svg, new_axes, small_legend
+from towtank.report.figure_style import (
+    CROWD,
+    INK,
+    MUTED,
+    Sheet,
+    decimated,
+    engineering_unit,
+    inline_svg,
+    new_axes,
+    small_legend,
+)
 
 
 def test_decimation_keeps_the_envelope() -> None:
@@ -77,6 +88,17 @@ def test_identifiers_of_two_drawings_differ() -> None:
         }
 
     assert not identifiers("one") & identifiers("two")
+
+
+def test_crowds_become_an_image_that_is_seen_on_dark_paper() -> None:
+    x = np.linspace(0.0, 1.0, CROWD + 1)
+    few, many = new_axes(), new_axes()
+    few.errorbar(x[:20], x[:20], yerr=0.1, fmt="o", color=INK)
+    many.errorbar(x, x, yerr=0.1, fmt="o", color=INK)
+    assert "<image" not in inline_svg(few.figure, "few", "x")
+    assert inline_svg(many.figure, "many", "x").count("<image") == 1
+    assert same_color(many.lines[0].get_color(), MUTED)
+    assert same_color(many.collections[0].get_colors()[0], MUTED)
 
 
 def test_drawing_in_threads_leaves_the_settings_alone() -> None:

@@ -66,7 +66,7 @@ def test_several_groups_get_a_column_and_files_of_their_own(depths_result: Campa
     one = DerivativeSet.from_json(tmp_path / "derivatives-ht-1.5.json")
     assert one.to_dict() == together["sets"]["h/T 1.5"]
     assert set(pd.read_csv(tmp_path / "three-ways.csv")["group"]) == {"h/T 1.5", "h/T 2"}
-    with pytest.raises(ReadError, match="h/T 1.5"):
+    with pytest.raises(ReadError, match=r"h/T 1\.5"):
         read_set(tmp_path / "derivatives.json")
 
 

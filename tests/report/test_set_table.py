@@ -59,7 +59,7 @@ def test_a_table_without_ship_has_values_but_no_particulars(tmp_path: Path) -> N
     assert derivatives.conventions.force_scaling == "L2"
     with pytest.raises(ConventionError, match=r"ship\.L = 7\.0"):
         derivatives.to("lt")
-    with pytest.raises(ConventionError, match="set.csv"):
+    with pytest.raises(ConventionError, match=r"set\.csv"):
         derivatives.to_json()
     given = Ship("model", L=7.0, B=1.27, T=0.455)
     assert read_set(path, ship=given).to("lt")["Yv"] == pytest.approx(-0.0205 * 7.0 / 0.455, rel=1e-14)
