@@ -14,7 +14,6 @@ Prints three ratios:
 from __future__ import annotations
 
 import argparse
-import contextlib
 import math
 import multiprocessing
 import resource
@@ -122,8 +121,12 @@ def towtank(campaign: Path) -> None:
     """The whole command, in this process."""
     from towtank.cli.main import main
 
-    with tempfile.TemporaryDirectory() as out, contextlib.redirect_stdout(None), contextlib.suppress(SystemExit):
-        main(["run", str(campaign), "--out", out])
+    with tempfile.TemporaryDirectory() as out:
+        try:
+            main(["run", str(campaign), "--out", out, "--quiet"])
+        except SystemExit as status:
+            if status.code:
+                raise RuntimeError(f"towtank run ended with status {status.code}") from None
 
 
 def pandas_reads(campaign: Path) -> None:

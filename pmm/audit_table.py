@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 
 from ..core.findings import Finding
 from ..core.ship import Ship
 from ..formats.raw_table import RawTable
-from .audit_rules import finding
+from .audit_rules import RULES, finding
 from .run_types import Run
 
 _NUMBER = re.compile(r"^\s*1?\s*:?\s*(?P<number>[-+]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?)\s*(?P<unit>[A-Za-z/^0-9]*)")
@@ -38,7 +39,8 @@ def audit_table(table: RawTable, run: Run | None, *, ship: Ship | None = None) -
     -------
     list of Finding
     """
-    found = list(table.findings)
+    # Readers that know no cure take that of the rule.
+    found = [item if item.cure else replace(item, cure=RULES[item.rule].cure) for item in table.findings]
     known = {item.rule for item in found}
     dialect = table.dialect
     if dialect is not None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -97,6 +97,15 @@ def fit_component(
     weights = 1.0 / (rows.sd**2 + scatter**2) if weighted else np.ones(len(rows.response))
     fit = _least_squares(rows, settings, weights)
     notes: list[str] = []
+    if fit.dof == 0:
+        if not weighted:
+            raise FitError(
+                f"{len(rows.response)} data for {len(rows.terms)} terms of {rows.component} leave no residual that "
+                "tells the uncertainty",
+                cure="fit fewer terms or add runs",
+            )
+        fit = replace(fit, scale=1.0, cov=_known_noise_covariance(rows.design, weights))
+        notes.append("as many data as terms: the uncertainty is that of the noise within runs alone")
     if not known:
         notes.append("no noise estimate for some runs: all rows count equally")
     elif scatter > 0:
@@ -127,6 +136,11 @@ def _least_squares(rows: ForceRows, settings: Fit, weights: np.ndarray) -> Linea
     except FitError as error:
         cure = error.cure.replace("allow_singular=True", "set fit.estimator = 'ridge', 'tsvd' or 'constrained'")
         raise FitError(error.cause, cure=cure) from None
+
+
+def _known_noise_covariance(design: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    inverse = _weighted_inverse(design, np.sqrt(weights))
+    return (inverse / weights) @ inverse.T
 
 
 def _unexcited_refused(rows: ForceRows) -> ForceRows:

@@ -246,18 +246,24 @@ def comparison_totals(comparison: pd.DataFrame) -> list[str]:
 def comparison_cells(row: Any) -> list[str]:
     """Text of one row of the comparison, with the digits that the uncertainty supports."""
     name, a, a_std, b, b_std, first, second, third, z, verdict = row
-    places = min(
-        (digits_for(value, std) for value, std in ((a, a_std), (b, b_std)) if math.isfinite(value)), default=5
-    )
-    cells = [f"{value:.{places}f}" if math.isfinite(value) else "" for value in (a, a_std, b, b_std)]
-    percent = [
-        f"{value + 0.0:+.1f}".replace("-0.0", "0.0") if math.isfinite(value) else "" for value in (first, second)
-    ]
+    cells = []
+    for value, std in ((a, a_std), (b, b_std)):
+        places = digits_for(value, std) if math.isfinite(value) else 0
+        cells += [f"{number:.{places}f}" if math.isfinite(number) else "" for number in (value, std)]
     return [
         str(name),
         *cells,
-        *percent,
+        _signed(first),
+        _signed(second),
         f"{third:.1f}" if math.isfinite(third) else "",
-        f"{z:+.1f}" if math.isfinite(z) else "",
+        _signed(z),
         str(verdict),
     ]
+
+
+def _signed(value: float) -> str:
+    """One decimal with its sign; nothing for what is no number."""
+    if not math.isfinite(value):
+        return ""
+    text = f"{value:+.1f}"
+    return text if float(text) else "0.0"

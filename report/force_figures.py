@@ -12,9 +12,7 @@ from .force_curves import Sweep, curve_along, harmonic_name, interval_factor, mo
 FORCE_NAMES = {"X": "surge force X′", "Y": "sway force Y′", "N": "yaw moment N′", "K": "roll moment K′"}
 
 
-def force_fit(
-    fit: HullFit, sweep: Sweep, component: str, *, legend: bool = True, ax: Axes | None = None
-) -> Axes:
+def force_fit(fit: HullFit, sweep: Sweep, component: str, *, legend: bool = True, ax: Axes | None = None) -> Axes:
     """Steady forces against one variable.
 
     Parameters
@@ -53,7 +51,6 @@ def force_fit(
             color=ink,
             markersize=4,
             elinewidth=0.9,
-            capsize=2,
         )
     ax.set_xlabel(sweep.label)
     ax.set_ylabel(f"{FORCE_NAMES[component]} [-]")
@@ -114,7 +111,6 @@ def amplitude_fit(fit: HullFit, kind: str, component: str, *, most: int = 3, ax:
             color=colour,
             markersize=4,
             elinewidth=0.9,
-            capsize=2,
             label=harmonic_name(harmonic),
         )
         ax.plot(x, fitted[where], color=colour, linewidth=1.0, marker=marker, markersize=7, fillstyle="none")

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Literal
 
-from .typography import aligned, fixed, significant
-
-if TYPE_CHECKING:
-    import pandas as pd
+from .typography import aligned
 
 Kind = Literal["text", "short", "number", "code"]
 """``short`` text is not broken into lines."""
@@ -60,25 +57,3 @@ def make_table(
             for row, cell in zip(filled, aligned([row[index] for row in filled]), strict=True):
                 row[index] = cell
     return Table(tuple(columns), tuple(tuple(row) for row in filled), caption, tuple(marks))
-
-
-def frame_table(frame: pd.DataFrame, caption: str = "", titles: dict[str, str] | None = None) -> Table:
-    """Table of a DataFrame: floats with four significant digits, integers plain, everything else as text."""
-    titles = titles or {}
-    columns = []
-    cells: list[list[str]] = []
-    for name in frame.columns:
-        values = frame[name]
-        is_float = values.dtype.kind == "f"
-        number = values.dtype.kind in "fiu"
-        columns.append(Column(titles.get(str(name), str(name)), "number" if number else "text"))
-        cells.append([_cell(value, is_float) for value in values.tolist()])
-    return make_table(columns, zip(*cells, strict=True) if cells else [], caption)
-
-
-def _cell(value: Any, is_float: bool) -> str:
-    if is_float:
-        return significant(float(value), 4)
-    if value is None:
-        return "–"
-    return fixed(value, 0) if isinstance(value, int) and not isinstance(value, bool) else str(value)

@@ -1,4 +1,4 @@
-"""Tables of the documentation that are written from the code; ``python tests/house/test_generated_pages.py`` renews them."""
+"""Tables of the documentation that are written from the code; run as a script, this file renews them."""
 
 from __future__ import annotations
 

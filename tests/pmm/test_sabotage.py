@@ -13,10 +13,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from towtank.core.conventions import Conventions
+from towtank.core.derivative_set import DerivativeSet
 from towtank.core.errors import AuditError
 from towtank.formats.write import write_table
 from towtank.pmm.audit_rules import RULES
 from towtank.pmm.campaign import Campaign
+from towtank.pmm.laboratory import Laboratory
 from towtank.pmm.shipped_campaigns import write_pmm_campaign, write_points_campaign
 from towtank.pmm.standard_matrices import standard_matrix
 from towtank.pmm.virtual_campaign import synthesize
@@ -31,11 +34,16 @@ def shipped(tmp_path_factory) -> dict[str, Path]:
     pmm = write_pmm_campaign(folder / "pmm").parent
     points = write_points_campaign(folder / "points").parent
     truth = Campaign.load(pmm / "campaign.toml")
-    from towtank.core.derivative_set import DerivativeSet
-
+    # Every other run is enough to be sabotaged.
+    every = pd.read_csv(pmm / "matrix.csv")
+    every[(every.index % 2 == 0) | (every["type"] == "pure_sway")].to_csv(pmm / "matrix.csv", index=False)
     derivatives = DerivativeSet.from_json(pmm / "truth.json")
-    runs = [run for run in standard_matrix("dtmb5512", truth.ship) if run.name in ("drift +0 deg", "drift +6 deg")]
-    synthesize(derivatives, runs, folder / "simman", name="SIMMAN form", fmt="simman", fit_terms=["R0", "Yv", "Nv"])
+    runs = [run for run in standard_matrix("dtmb5512", truth.ship) if run.kind == "static_drift"][4:13:2]
+    quick = Laboratory(sampling_rate=5.0, conventions=Conventions(angle_unit="deg"))
+    terms = ["R0", "Yv", "Yvvv", "Nv", "Nvvv"]
+    synthesize(
+        derivatives, runs, folder / "simman", name="SIMMAN", fmt="simman", fit_terms=terms, laboratory=quick
+    )
     return {"pmm": pmm, "points": points, "simman": folder / "simman"}
 
 
@@ -251,7 +259,7 @@ def with_rudder(sign: float) -> Callable[[Path], None]:
         columns("*.txt", add),
         columns(TOW, turn),
         matrix(mark),
-        campaign(('[inertia]\n', 'rudder_angle = { column = "delta", unit = "deg" }\n\n[inertia]\n')),
+        campaign(("[inertia]\n", 'rudder_angle = { column = "delta", unit = "deg" }\n\n[inertia]\n')),
     )
 
 
@@ -278,13 +286,15 @@ SABOTAGE: dict[str, Sabotage] = {
     ),
     "names-fewer-than-columns": Sabotage(
         both(
-            text(DRIFT, lambda lines: lines.__setitem__(2, lines[2].rsplit("\t", 1)[0] + "\n")),
-            campaign(('r = { column = "r", unit = "deg/s" }\n', "")),
+            text(DRIFT, lambda lines: lines.__setitem__(2, lines[2].replace("\tx\t", "\t\t"))),
+            campaign(('x = { column = "x", unit = "m" }\n', "")),
         ),
         "warning",
     ),
     "duplicate-columns": Sabotage(
-        text(DRIFT, lambda lines: [*lines[:2], *(f"{a.strip()}\t{b}" for a, b in zip(lines[2:], repeat_x(lines)))]),
+        text(
+            DRIFT, lambda lines: [*lines[:2], *(f"{a.strip()}\t{b}" for a, b in zip(lines[2:], repeat_x(lines)))]
+        ),
         "warning",
     ),
     "text-column": Sabotage(
@@ -294,7 +304,9 @@ SABOTAGE: dict[str, Sabotage] = {
     "numbers-as-text": Sabotage(exported(".xlsx", lambda p, s: workbook(p, s, as_text=True)), "warning"),
     "first-sheet": Sabotage(exported(".xlsx", lambda p, s: workbook(p, s, sheets=2)), "info"),
     "time-stamps": Sabotage(exported(".tdms", tdms), "info"),
-    "no-condition-file": Sabotage(lambda folder: next((folder / "runs").glob("*.cond")).unlink(), "warning", "simman"),
+    "no-condition-file": Sabotage(
+        lambda folder: next((folder / "runs").glob("*.cond")).unlink(), "warning", "simman"
+    ),
     # -- in the header
     "decimal-comma": Sabotage(columns(DRIFT, lambda s: None, decimal=","), "info"),
     "header-encoding": Sabotage(
@@ -342,7 +354,7 @@ SABOTAGE: dict[str, Sabotage] = {
     ),
     "inertia-inside": Sabotage(campaign(("inside = true", "inside = false"))),
     "inertia-outside": Sabotage(campaign(("inside = true\nmass = 86.0", "inside = true\nmass = 172.0"))),
-    "moment-reference": Sabotage(campaign(("moment_x = 0.0", "moment_x = 1.524"))),
+    "moment-reference": Sabotage(campaign(("moment_x = 0.0", "moment_x = -2.5"))),
     "l2-against-lt": Sabotage(campaign(('scaling = "LT"', 'scaling = "L2"')), base="points"),
     "force-unit": Sabotage(
         campaign(*((f'column = "{n}", unit = "N', f'column = "{n}", unit = "kN') for n in "XYN"))

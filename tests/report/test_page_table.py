@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import pandas as pd
-
-from towtank.report.page_table import Column, frame_table, make_table
+from towtank.report.page_table import Column, make_table
 from towtank.report.typography import FIGURE_SPACE
 
 
@@ -12,14 +10,6 @@ def test_number_columns_are_aligned_and_text_is_left_alone() -> None:
     table = make_table([Column("a"), Column("b", "number")], [("1.5", "1.5"), ("x", "2.25")], marks=["", "weak"])
     assert table.rows == (("1.5", "1.5" + FIGURE_SPACE), ("x", "2.25"))
     assert [mark for mark, _ in table.marked_rows] == ["", "weak"]
-
-
-def test_a_frame_becomes_a_table() -> None:
-    frame = pd.DataFrame({"name": ["a", None], "n": [1, 20], "x": [0.5, float("nan")]})
-    table = frame_table(frame, titles={"n": "number"})
-    assert [(c.title, c.kind) for c in table.columns] == [("name", "text"), ("number", "number"), ("x", "number")]
-    assert table.rows[0] == ("a", "1", "0.5000")
-    assert table.rows[1][1:] == ("20", "–")
 
 
 def test_a_table_without_rows() -> None:
