@@ -10,6 +10,9 @@ from typing import TypeVar
 
 from ..core.errors import ReadError, TowtankError
 
+_BATCH = 8
+"""Runs that a process takes at a time."""
+
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
@@ -93,7 +96,8 @@ def _in_processes(
 ) -> Generator[Result, None, None]:
     from joblib import Parallel, delayed
 
-    pool = Parallel(n_jobs=workers, return_as="generator", batch_size=8, pre_dispatch="3 * n_jobs")
+    # Four batches a worker are under way: enough to keep them busy, few enough to bound the memory.
+    pool = Parallel(n_jobs=workers, return_as="generator", batch_size=_BATCH, pre_dispatch=4 * _BATCH * workers)
     yield from pool(delayed(_read)(read_one, item) for item in items)
 
 

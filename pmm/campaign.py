@@ -226,7 +226,8 @@ class Campaign:
         wet = [run for run in self.runs if not run.dry]
         report = partial(progress, "reading runs") if progress else None
         work = partial(reader.read_and_reduce, plan=plan)
-        many = sum(run.file.stat().st_size for run in wet if run.file) > _BYTES_WORTH_PROCESSES
+        size = sum(run.file.stat().st_size for run in wet if run.file)
+        many = workers > 2 and size > _BYTES_WORTH_PROCESSES
         if many:
             reader.learn(wet[0])
         reduced = list(iter_records(wet, work, workers=workers, processes=many, progress=report))

@@ -170,6 +170,13 @@ def inline_svg(figure: Figure, name: str, text: str) -> str:
     return _COLOUR.sub(lambda match: _VARIABLE_COLOURS[match.group().lower()], source).strip()
 
 
+def spread_evenly(count: int, most: int) -> np.ndarray:
+    """Positions of at most `most` of `count` things, spread evenly, first and last among them."""
+    if count <= most:
+        return np.arange(count)
+    return np.unique(np.linspace(0, count - 1, most).round().astype(int))
+
+
 def decimated(times: np.ndarray, values: np.ndarray, limit: int = 800) -> tuple[np.ndarray, np.ndarray]:
     """A series with at most `limit` points that keeps its envelope: smallest and largest value of each stretch.
 

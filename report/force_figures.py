@@ -6,8 +6,11 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..pmm.hull_fit import HullFit
-from .figure_style import CYCLE, INK, MARKERS, new_axes, small_legend
+from .figure_style import CYCLE, INK, MARKERS, new_axes, small_legend, spread_evenly
 from .force_curves import Sweep, curve_along, harmonic_name, interval_factor, motion_amplitude
+
+MOST_RUNS = 60
+"""Runs of one kind that a figure of harmonics shows."""
 
 FORCE_NAMES = {"X": "surge force X′", "Y": "sway force Y′", "N": "yaw moment N′", "K": "roll moment K′"}
 
@@ -80,7 +83,8 @@ def amplitude_fit(fit: HullFit, kind: str, component: str, *, most: int = 3, ax:
     Returns
     -------
     Axes
-        Filled markers with bars of 95 % are measured; open ones, joined, are fitted.
+        Filled markers with bars of 95 % are measured; open ones, joined, are fitted. Of more than `MOST_RUNS` runs
+        that many are shown.
     """
     ax = ax if ax is not None else new_axes()
     result = fit.components[component]
@@ -96,6 +100,7 @@ def amplitude_fit(fit: HullFit, kind: str, component: str, *, most: int = 3, ax:
     for number, harmonic in enumerate(sorted(sorted(sizes, key=lambda h: -sizes[h])[:most])):
         colour, marker = CYCLE[number], MARKERS[number]
         where = np.flatnonzero(chosen & (rows.harmonic == harmonic))
+        where = where[spread_evenly(len(where), MOST_RUNS)]
         amplitudes = []
         for index in rows.run[where].tolist():
             amplitude, label = motion_amplitude(fit.runs[index])

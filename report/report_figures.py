@@ -14,8 +14,8 @@ from ..pmm.hull_fit import HullFit
 from .derivative_figures import correlation_map, derivative_forest
 from .figure_style import Sheet, inline_svg
 from .force_curves import sweeps
-from .force_figures import amplitude_fit, curve_colour, force_fit
-from .residual_figures import measured_against_fitted, residuals_by_run
+from .force_figures import MOST_RUNS, amplitude_fit, curve_colour, force_fit
+from .residual_figures import MOST_ROWS, measured_against_fitted, residuals_by_run
 from .series_figures import time_series
 
 if TYPE_CHECKING:
@@ -101,7 +101,8 @@ class Draughtsman:
                 self._panels(
                     f"harmonics against amplitude, {name}", partial(amplitude_fit, self.fit, kind), excited
                 ),
-                "Filled: measured, with bars of 95 %. Open, joined: fitted. The largest harmonics of each force.",
+                "Filled: measured, with bars of 95 %. Open, joined: fitted. "
+                f"The largest harmonics; at most {MOST_RUNS} runs.",
             )
 
     def _oscillating_kinds(self) -> list[str]:
@@ -130,7 +131,7 @@ class Draughtsman:
             self._panels(
                 "measured against fitted values", partial(measured_against_fitted, self.fit), self.fit.components
             ),
-            "Means and harmonics of all runs with bars of 95 %; the line is equality.",
+            f"Means and harmonics with bars of 95 %, at most {MOST_ROWS}; the line is equality.",
         )
 
     def series(self) -> Iterator[Row]:

@@ -6,14 +6,26 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..pmm.component_fit import ComponentFit
-from ..pmm.hull_fit import HullFit
-from .figure_style import BLUE, COMPONENT_COLOURS, CYCLE, INK, MARKERS, MUTED, new_axes, small_legend
+from ..pmm.hull_fit import OUTLYING, HullFit
+from .figure_style import (
+    BLUE,
+    COMPONENT_COLOURS,
+    CYCLE,
+    INK,
+    MARKERS,
+    MUTED,
+    new_axes,
+    small_legend,
+    spread_evenly,
+)
 from .force_curves import interval_factor
 from .force_figures import FORCE_NAMES, finite
 
+MOST_ROWS = 300
+"""Data that the figure of measured against fitted values shows."""
+
 _BANDS = (("mean", 0, 0), ("1st harmonic", 1, 2), ("2nd", 3, 4), ("higher", 5, 10_000))
 
-OUTLYING = 4.0
 """Standardised residual from which a run is named in the figure."""
 
 
@@ -97,6 +109,8 @@ def residuals_by_run(fit: HullFit, component: str, *, ax: Axes | None = None) ->
 def measured_against_fitted(fit: HullFit, component: str, *, ax: Axes | None = None) -> Axes:
     """Measured means and harmonics of one component against the fitted ones, with the line of equality.
 
+    Of more than `MOST_ROWS` rows that many are shown, spread evenly over the runs.
+
     Parameters
     ----------
     fit : HullFit
@@ -110,11 +124,12 @@ def measured_against_fitted(fit: HullFit, component: str, *, ax: Axes | None = N
     both = np.concatenate([fitted, rows.response])
     ends = np.array([both.min(), both.max()])
     ax.plot(ends, ends, color=MUTED, linewidth=0.9)
+    shown = spread_evenly(len(fitted), MOST_ROWS)
     half = interval_factor(np.inf) * finite(result.row_sd)
     ax.errorbar(
-        fitted,
-        rows.response,
-        yerr=half,
+        fitted[shown],
+        rows.response[shown],
+        yerr=half[shown],
         fmt="o",
         color=COMPONENT_COLOURS[component],
         markersize=3.5,

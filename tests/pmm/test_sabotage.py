@@ -354,7 +354,7 @@ SABOTAGE: dict[str, Sabotage] = {
     ),
     "inertia-inside": Sabotage(campaign(("inside = true", "inside = false"))),
     "inertia-outside": Sabotage(campaign(("inside = true\nmass = 86.0", "inside = true\nmass = 172.0"))),
-    "moment-reference": Sabotage(campaign(("moment_x = 0.0", "moment_x = -2.5"))),
+    "moment-reference": Sabotage(campaign(("moment_x = 0.0", "moment_x = 3.0"))),
     "l2-against-lt": Sabotage(campaign(('scaling = "LT"', 'scaling = "L2"')), base="points"),
     "force-unit": Sabotage(
         campaign(*((f'column = "{n}", unit = "N', f'column = "{n}", unit = "kN') for n in "XYN"))
