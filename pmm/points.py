@@ -201,7 +201,9 @@ def _run(row: _Row, points: Points, ship: Ship, conventions: Conventions, name: 
             **more,
         )
     except CampaignError as error:
-        raise CampaignError(error.cause, cure=error.cure, file=row.file, place=row.place) from None
+        raise CampaignError(
+            error.cause, cure=error.cure or "correct the row", file=row.file, place=row.place
+        ) from None
 
 
 def _reduced(

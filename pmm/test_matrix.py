@@ -220,7 +220,8 @@ def _make_run(
     try:
         return Run(name=name, kind=kind, file=path, **values)
     except CampaignError as error:
-        raise CampaignError(error.cause, cure=error.cure, file=file, place=f"{where}, {error.place}") from None
+        cure = error.cure or "correct the group or the matrix"
+        raise CampaignError(error.cause, cure=cure, file=file, place=f"{where}, {error.place}") from None
 
 
 def _number(value: Any, key: str, file: Path, place: str) -> float:
