@@ -271,7 +271,7 @@ def _sign_factors(terms: Sequence[Term], a: Conventions, b: Conventions) -> list
     flipped: set[str] = set()
     forces: dict[str, float] = dict.fromkeys("XYNK", 1.0)
     if a.axes != b.axes:
-        flipped |= {"v", "r", "vdot", "rdot"}
+        flipped |= {"v", "beta", "r", "vdot", "rdot"}
         forces |= {"Y": -1.0, "N": -1.0}
     if a.rudder_sign != b.rudder_sign:
         flipped.add("delta")

@@ -88,7 +88,7 @@ def scaled_state(
     for name, value in x.items():
         kind = VARIABLES[name]
         unit = 1.0 / variable_unit(name, conventions.force_scaling, ship, 1.0)
-        if conventions.axes == "forward-port-up" and name in ("v", "r", "vdot", "rdot"):
+        if conventions.axes == "forward-port-up" and name in ("v", "beta", "r", "vdot", "rdot"):
             unit = -unit
         if conventions.rudder_sign == "port" and name == "delta":
             unit = -unit

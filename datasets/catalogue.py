@@ -46,10 +46,13 @@ class Paper:
     def reference(self) -> str:
         """Authors, year, title and where it was published, in one line."""
         source = self.data["source"]
-        head = " ".join(str(source[key]) for key in ("authors",) if key in source)
-        if "year" in source:
-            head = f"{head} ({source['year']})".strip()
-        parts = [part for part in (head, source["title"], source.get("published")) if part]
+        year = f" ({source['year']})" if "year" in source else ""
+        if source.get("authors"):
+            parts = [f"{source['authors']}{year}", source["title"]]
+        else:
+            parts = [f"{source['title']}{year}"]
+        if source.get("published"):
+            parts.append(source["published"])
         if "doi" in source:
             parts.append(f"doi {source['doi']}")
         return ", ".join(parts)

@@ -190,7 +190,13 @@ def _parse_fast(cells: bytes, dialect: Dialect, names: Sequence[str], refused: l
 
 def _end_of_rows(data: bytes, start: int) -> int:
     """End of the last line that is not blank, without its line end."""
-    stop = start + len(data[start:].rstrip(b"\r\n \t\x1a")) if data[-1:] in _ENDS else len(data)
+    stop = len(data)
+    if data[-1:] in _ENDS:
+        # Only the tail is copied: blanks rarely fill more than a few bytes.
+        tail = data[max(start, stop - 4096) :].rstrip(b"\r\n \t\x1a")
+        stop = max(start, stop - 4096) + len(tail)
+        if not tail:
+            stop = start + len(data[start:].rstrip(b"\r\n \t\x1a"))
     # A last row may end in empty cells, whose tabs were just taken for blanks.
     while stop < len(data) and data[stop] in b" \t":
         stop += 1

@@ -145,6 +145,13 @@ def _scaling(
     known = [(name, abs(value), abs(usual)) for name, value, usual in pairs if value]
     if not known:
         return []
+    # Force and moment may be read in units of their own.
+    for component in "YN":
+        own = [value / usual for name, value, usual in known if name[0] == component]
+        if own and min(max(size, 1.0 / size) for size in own) > 2.5 * ship.L / ship.T and _one_side(own):
+            seen = ", ".join(f"{n} = {v:.3g} for about {u:.3g}" for n, v, u in known if n[0] == component)
+            text = f"{component} is {own[0]:.2g} times the empirical one ({seen})"
+            return [finding("force-unit", text, place=f"channel {component}")]
     ratios = sorted(value / usual for _, value, usual in known)
     ratio = ratios[len(ratios) // 2]
     slender = ship.L / ship.T
@@ -152,14 +159,17 @@ def _scaling(
     if (ratios[-1] > slender**-0.6 and ratios[0] < slender**0.6) or max(ratio, 1.0 / ratio) < slender**0.75:
         return []
     seen = ", ".join(f"{name} = {value:.3g} for about {usual:.3g}" for name, value, usual in known)
-    if max(ratio, 1.0 / ratio) > 2.5 * slender:
-        return [finding("force-unit", f"forces are {ratio:.2g} times the empirical ones ({seen})")]
     made, read = ("L^2", "L T") if ratio < 1.0 else ("L T", "L^2")
     text = (
         f"forces are {ratio:.3g} times the empirical ones and L/T is {slender:.3g}: they were divided by {made} "
         f"and read as divided by {read} ({seen})"
     )
     return [finding("l2-against-lt", text)]
+
+
+def _one_side(ratios: Sequence[float]) -> bool:
+    """True when all are larger than 1, or all smaller."""
+    return min(ratios) > 1.0 or max(ratios) < 1.0
 
 
 def _inertia(slopes: LinearSlopes, yardstick: _Yardstick, ship: Ship, inside: bool) -> list[Finding]:

@@ -243,6 +243,8 @@ class Campaign:
             findings += noticed
             if points.sha256:
                 digests[str(self.file.points.file)] = points.sha256
+            if self.file.points.harmonics is not None:
+                digests[self.file.points.harmonics] = file_hash(self.folder / self.file.points.harmonics)
             reduced += points.runs
         # Threads finish in any order, and processes keep their readers to themselves.
         read = {reader.name_of(run.run.file): run.sha256 for run in reduced if run.run.file}

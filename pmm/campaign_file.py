@@ -196,10 +196,14 @@ class RunGroup(_Section):
 
 
 class Points(_Section):
-    """``[points]``: already reduced runs, one a row: mean forces or harmonics, non-dimensional or SI."""
+    """``[points]``: already reduced runs, one a row, non-dimensional or SI.
+
+    ``file`` or ``table`` holds mean forces of steady runs, ``harmonics`` those of oscillating runs.
+    """
 
     file: str | None = None
     table: str | None = None
+    harmonics: str | None = None
     scaling: Literal["LT", "L2", "dimensional"] = "LT"
     columns: dict[str, str] = Field(default_factory=dict)
     relative_sd: float | None = Field(default=None, gt=0)

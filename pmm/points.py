@@ -1,4 +1,4 @@
-"""Already reduced points (mean forces, one a row) as runs."""
+"""Already reduced points (mean forces of steady runs, harmonics of oscillating ones) as runs."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from ..core.scales import force_unit
 from ..core.ship import Ship
 from .audit_table import audit_table
 from .campaign_file import Points, Reduction
+from .harmonic_points import read_harmonic_points
 from .planar_motion import prescribed_motion
 from .reduced_run import FORCES, ReducedRun
 from .reduction import point_run
@@ -78,6 +79,11 @@ def read_points(
     ReadError, DatasetError
         When there is no such table.
     """
+    harmonics: list[ReducedRun] = []
+    if points.harmonics is not None:
+        harmonics = read_harmonic_points(points, ship, conventions, folder, file, reduction)
+        if points.file is None and points.table is None:
+            return PointTable(tuple(harmonics), (), "")
     frame, findings, source, digest = _table(points, ship, folder, file)
     frame = frame.rename(columns={theirs: ours for ours, theirs in points.columns.items()})
     columns = [str(column) for column in frame.columns]
@@ -106,7 +112,7 @@ def read_points(
         row = _Row({str(key): value for key, value in values.items()}, file, f"{source}, row {number}")
         run = _run(row, points, ship, conventions, f"{Path(source).stem} {number}")
         rows.append(_reduced(row, run, points, ship, conventions, reduction, forces))
-    return PointTable(tuple(rows), tuple(findings), digest)
+    return PointTable((*rows, *harmonics), tuple(findings), digest)
 
 
 def _table(
@@ -179,7 +185,7 @@ def _run(row: _Row, points: Points, ship: Ship, conventions: Conventions, name: 
                 file=row.file,
                 place=row.place,
             )
-        drift = -math.asin(side * sway)
+        drift = math.asin(-side * sway) + 0.0  # no -0 in tables
     else:
         drift = angle * row.number("beta", row.number("drift_angle"))
         drift *= side * (1.0 if conventions.drift_sign == "-v" else -1.0)

@@ -55,13 +55,13 @@ def expand_runs(groups: list[RunGroup], folder: Path, conventions: Conventions, 
                 file=file,
                 place=place,
             )
-        rows = _matrix_rows(group, folder, file, place) if group.matrix else _file_rows(group, folder, file, place)
+        rows = matrix_rows(group, folder, file, place) if group.matrix else _file_rows(group, folder, file, place)
         if not rows:
             raise CampaignError(
                 f"test matrix '{group.matrix}' has no rows", cure="add one row a run", file=file, place=place
             )
         for row in rows:
-            runs.append(_make_run(row, group, folder, conventions, file, place))
+            runs.append(make_run(row, group, folder, conventions, file, place))
     names: dict[str, int] = {}
     for run in runs:
         names[run.name] = names.get(run.name, 0) + 1
@@ -73,7 +73,7 @@ def expand_runs(groups: list[RunGroup], folder: Path, conventions: Conventions, 
     return runs
 
 
-def _matrix_rows(group: RunGroup, folder: Path, file: Path, place: str) -> list[dict[str, Any]]:
+def matrix_rows(group: RunGroup, folder: Path, file: Path, place: str) -> list[dict[str, Any]]:
     import pandas as pd
 
     path = folder / str(group.matrix)
@@ -166,7 +166,7 @@ def _natural(name: str) -> list[Any]:
     return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", name)]
 
 
-def _make_run(
+def make_run(
     row: dict[str, Any], group: RunGroup, folder: Path, conventions: Conventions, file: Path, place: str
 ) -> Run:
     where = str(row.pop("_place", place))
