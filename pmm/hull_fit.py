@@ -154,7 +154,8 @@ def fit_hull(
     bias, bias_parts = bias_covariance(runs, components, settings.shared_bias)
     diagnostics = _diagnostics(runs, components)
     diagnostics["shared_bias"] = bias_parts
-    speed = float(np.mean([run.motion.speed for run in runs]))
+    known = all(run.speed_given for run in runs)
+    speed = float(np.mean([run.motion.speed for run in runs])) if known else None
     derivatives = DerivativeSet(
         name=name,
         ship=ship,
@@ -242,7 +243,8 @@ def _validity(runs: Sequence[ReducedRun], terms: Sequence[Term]) -> dict[str, tu
         state, speed = scaled_state(
             run.motion.at(times), run.ship, Conventions(velocity_scale=run.velocity_scale), run.motion.speed
         )
-        state["Fn"] = speed / math.sqrt(GRAVITY * run.ship.L)
+        if run.speed_given:
+            state["Fn"] = speed / math.sqrt(GRAVITY * run.ship.L)
         for variable in (used | {"Fn"}) & set(state):
             low[variable] = min(low.get(variable, math.inf), float(np.min(state[variable])))
             high[variable] = max(high.get(variable, -math.inf), float(np.max(state[variable])))

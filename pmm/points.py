@@ -189,7 +189,7 @@ def _run(row: _Row, points: Points, ship: Ship, conventions: Conventions, name: 
     else:
         drift = angle * row.number("beta", row.number("drift_angle"))
         drift *= side * (1.0 if conventions.drift_sign == "-v" else -1.0)
-    more = {
+    more: dict[str, Any] = {
         name: row.number(name) * (angle if name in _ANGLES else 1.0)
         for name in ("rudder_angle", "heel", "bank_position", "depth", "propeller_rate")
         if name in row and name in RUN_PARAMETERS
@@ -251,7 +251,8 @@ def _reduced(
         sd = dict.fromkeys(sd, math.nan)
     reduced = point_run(run, ship, scaled, sd, reduction.nondimensional_speed)
     newtons = {name: np.array([value * force_unit(name, "LT", ship, scale)]) for name, value in scaled.items()}
-    return replace(reduced, motion=motion, forces=newtons)
+    given = "speed" in row or "U" in row
+    return replace(reduced, motion=motion, forces=newtons, speed_given=given)
 
 
 def _uncertainty(name: str, row: _Row, points: Points) -> float:

@@ -144,6 +144,8 @@ class ReducedRun:
         Force series of the window in N for the report; kept for a few runs only.
     zero_sd : mapping of str to float
         Standard error in N of the zero level that was subtracted; all runs with this zero share the error.
+    speed_given : bool
+        False for a non-dimensional point whose speed is not known; it then has a unit speed.
     samples : TimeRows or None
         All samples of the window, condensed for a fit in the time domain.
     """
@@ -164,6 +166,7 @@ class ReducedRun:
     sha256: str = ""
     series: Mapping[str, np.ndarray] = field(default_factory=dict)
     zero_sd: Mapping[str, float] = field(default_factory=dict)
+    speed_given: bool = True
     samples: TimeRows | None = None
     columns: dict[tuple[Factor, ...], np.ndarray] = field(default_factory=dict, repr=False)
 

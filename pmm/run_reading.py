@@ -80,15 +80,15 @@ class RunReader:
             For bad input, or an error of the audit that is not waived.
         """
         record, findings = self._record(run)
-        findings = tuple(accept(findings, self.waived))
-        stop_on_error(findings)
-        result = reduce_run(record, self._without_tare(run), plan, findings)
+        accepted = tuple(accept(findings, self.waived))
+        stop_on_error(accepted)
+        result = reduce_run(record, self._without_tare(run), plan, accepted)
         return replace(result, run=replace(result.run, tare=run.tare), zero_sd=self.zero_sd.get(run.tare, {}))
 
     def look_at(self, run: Run, plan: ReductionPlan) -> tuple[tuple[Finding, ...], ReducedRun | None]:
         """All findings about one run, and what it reduces to when no error among them makes that senseless."""
-        record, findings = self._record(run)
-        findings = tuple(accept(findings, self.waived))
+        record, seen = self._record(run)
+        findings = tuple(accept(seen, self.waived))
         if any(item.severity == "error" and not item.accepted for item in findings):
             return findings, None
         return findings, reduce_run(record, self._without_tare(run), plan, findings)
