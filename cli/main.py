@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import sys
-from typing import Annotated
+from typing import Annotated, Any
 
-import click
 import typer
 
 from ..core.errors import TowtankError
@@ -64,15 +63,7 @@ def main(arguments: list[str] | None = None) -> None:
         if debug:
             raise
         _fail(str(error), 2)
-    except click.exceptions.NoArgsIsHelpError as error:
-        typer.echo(error.format_message())
-        sys.exit(2)
-    except click.UsageError as error:
-        hint = f" (see: {error.ctx.command_path} --help)" if error.ctx is not None else ""
-        _fail(error.format_message() + hint, 2)
-    except click.ClickException as error:
-        _fail(error.format_message(), 2)
-    except (KeyboardInterrupt, click.exceptions.Abort):
+    except (KeyboardInterrupt, typer.Abort):
         _fail("interrupted; earlier results are untouched", 130)
     except BrokenPipeError:
         sys.stderr.close()
@@ -83,9 +74,22 @@ def main(arguments: list[str] | None = None) -> None:
         reason = error.strerror or str(error)
         _fail(f"{error.filename or 'output'}: {reason} -> give a path that you may read and write", 2)
     except Exception as error:
+        if _is_usage(error):
+            _fail(_usage_text(error), 2)
         if debug:
             raise
         _fail(f"defect in towtank: {type(error).__name__}: {error} -> run again with --debug and report it", 1)
+
+
+def _is_usage(error: Exception) -> bool:
+    # Typer carries a click of its own in newer versions; both mark a wrong command line in the same way.
+    return hasattr(error, "format_message") and hasattr(error, "exit_code")
+
+
+def _usage_text(error: Any) -> str:
+    context = getattr(error, "ctx", None)
+    hint = f" (see: {context.command_path} --help)" if context is not None else ""
+    return f"{error.format_message()}{hint}"
 
 
 def _fail(message: str, status: int) -> None:

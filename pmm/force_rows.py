@@ -114,7 +114,8 @@ def _moderated_sd(rows: ForceRows, runs: Sequence[ReducedRun], dof: np.ndarray) 
     # Coefficients of one harmonic share a density; the mean has half the variance of a cosine.
     band = np.where(rows.harmonic <= 0, 0, (rows.harmonic + 1) // 2)
     density = sd**2 * length
-    floor = max((1e-10 * np.abs(rows.response).max(initial=0.0)) ** 2, np.finfo(float).tiny)
+    # No balance resolves better; weights further apart would cost digits where the data are free of noise.
+    floor = max((1e-7 * np.abs(rows.response).max(initial=0.0)) ** 2, np.finfo(float).tiny)
     density = np.maximum(density, floor * length)
     for key in {(bool(k), int(b)) for k, b in zip(kind, band, strict=True)}:
         same = (kind == key[0]) & (band == key[1])

@@ -74,6 +74,13 @@ def expand_runs(groups: list[RunGroup], folder: Path, conventions: Conventions, 
 
 
 def matrix_rows(group: RunGroup, folder: Path, file: Path, place: str) -> list[dict[str, Any]]:
+    """Rows of the test matrix of a group as mappings without blank cells; ``_place`` says where each stands.
+
+    Raises
+    ------
+    CampaignError
+        When the table is missing or not a test matrix.
+    """
     import pandas as pd
 
     path = folder / str(group.matrix)
@@ -169,6 +176,13 @@ def _natural(name: str) -> list[Any]:
 def make_run(
     row: dict[str, Any], group: RunGroup, folder: Path, conventions: Conventions, file: Path, place: str
 ) -> Run:
+    """Run of one row, in SI, radians and home signs.
+
+    Raises
+    ------
+    CampaignError
+        For an unknown type or parameter, or a missing one, with its row.
+    """
     where = str(row.pop("_place", place))
     kind = str(row.pop("type", group.type) or "")
     source = row.pop("file", None)

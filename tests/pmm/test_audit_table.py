@@ -1,11 +1,14 @@
 """The header of a file against the campaign."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from towtank.core import Finding, Ship
 from towtank.formats.dialect import Dialect
 from towtank.formats.raw_table import RawTable
+from towtank.pmm.audit_rules import RULES
 from towtank.pmm.audit_table import audit_table
 from towtank.pmm.run_types import Run
 
@@ -20,7 +23,8 @@ def rules(run=None, ship=SHIP, **table):
 
 def test_findings_of_the_reader_are_passed_on():
     noticed = Finding("blank-rows", "warning", "2 blank rows", "a.txt")
-    assert audit_table(RawTable(ONE, findings=(noticed,)), None) == [noticed]
+    passed_on = replace(noticed, cure=RULES["blank-rows"].cure)
+    assert audit_table(RawTable(ONE, findings=(noticed,)), None) == [passed_on]
 
 
 def test_how_the_text_was_read():
