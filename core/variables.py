@@ -43,11 +43,12 @@ class Variable:
 
 _ALL = (
     Variable("v", "v", 0, 1, True, False, "m/s", "sway velocity"),
+    # before beta: in the other order the spelling of both together would read as beta
+    Variable("eta", "eta", -1, 0, False, False, "m", "lateral deviation towards a bank to starboard"),
     Variable("beta", "b", 0, 0, True, True, "rad", "drift angle"),
     Variable("r", "r", 1, 1, True, False, "rad/s", "yaw rate"),
     Variable("p", "p", 1, 1, True, False, "rad/s", "roll rate"),
     Variable("phi", "phi", 0, 0, True, True, "rad", "roll angle"),
-    Variable("eta", "eta", -1, 0, False, False, "m", "lateral deviation towards a bank to starboard"),
     Variable("u", "u", 0, 1, False, False, "m/s", "surge velocity less the approach speed"),
     Variable("surge", "surge", 0, 1, False, False, "m/s", "surge velocity"),
     Variable("delta", "d", 0, 0, True, True, "rad", "rudder angle"),
