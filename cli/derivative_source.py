@@ -20,11 +20,9 @@ def load_derivatives(name: str) -> DerivativeSet:
     if path.is_dir():
         path = path / "derivatives.json"
     if path.suffix.lower() in (".json", ".csv") or path.is_file():
-        if path.suffix.lower() == ".csv":
-            from ..report.comparison import read_set
+        from ..report.set_table import read_set
 
-            return read_set(path)
-        return DerivativeSet.from_json(path)
+        return read_set(path)
     from ..datasets import load_set
 
     try:

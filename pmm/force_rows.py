@@ -110,9 +110,13 @@ def _moderated_sd(rows: ForceRows, runs: Sequence[ReducedRun], dof: np.ndarray) 
     if not np.isfinite(sd).all():
         return np.full(len(sd), np.nan)
     length = np.array([run.window.count * run.window.step for run in runs])[rows.run]
+    # Rows of the time domain are densities already: their directions have unit length.
+    length = np.where(rows.harmonic < 0, 1.0, length)
     kind = np.array([run.order > 0 for run in runs])[rows.run]
-    # Coefficients of one harmonic share a density; the mean has half the variance of a cosine.
-    band = np.where(rows.harmonic <= 0, 0, (rows.harmonic + 1) // 2)
+    # Coefficients of one harmonic share a density; the mean has half the variance of a cosine. The rows -1, -2, ...
+    # of the time domain are in the same order.
+    row = np.where(rows.harmonic < 0, -1 - rows.harmonic, rows.harmonic)
+    band = (row + 1) // 2
     density = sd**2 * length
     # No balance resolves better; weights further apart would cost digits where the data are free of noise.
     floor = max((1e-7 * np.abs(rows.response).max(initial=0.0)) ** 2, np.finfo(float).tiny)

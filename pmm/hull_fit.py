@@ -214,11 +214,16 @@ def _cross_covariance(a: ComponentFit, b: ComponentFit) -> np.ndarray:
     if len(pairs) < 4:
         return np.zeros((len(a.params), len(b.params)))
     in_a, in_b = (np.array(index) for index in zip(*pairs, strict=True))
-    x, y = a.residual[in_a] / a.row_sd[in_a], b.residual[in_b] / b.row_sd[in_b]
+    x, y = _standardised(a)[in_a], _standardised(b)[in_b]
     size = math.sqrt(float(x @ x) * float(y @ y))
     correlation = float(x @ y) / size if size > 0 else 0.0
     both = a.row_sd[in_a] * b.row_sd[in_b]
     return correlation * (a.influence[:, in_a] * both) @ b.influence[:, in_b].T
+
+
+def _standardised(fit: ComponentFit) -> np.ndarray:
+    """Residuals in standard deviations; 0 where the data follow the fit exactly."""
+    return np.divide(fit.residual, fit.row_sd, out=np.zeros(len(fit.row_sd)), where=fit.row_sd > 0)
 
 
 def _positive(matrix: np.ndarray) -> np.ndarray:

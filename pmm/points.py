@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.conventions import Conventions
-from ..core.errors import CampaignError
+from ..core.errors import CampaignError, DatasetError
 from ..core.findings import Finding
 from ..core.scales import force_unit
 from ..core.ship import Ship
@@ -128,7 +128,10 @@ def _table(
     if points.table is not None:
         from ..datasets import load_table
 
-        return load_table(points.table).frame, (), points.table, ""
+        try:
+            return load_table(points.table).frame, (), points.table, ""
+        except DatasetError as error:
+            raise DatasetError(error.cause, cure=error.cure, file=file, place="[points] table") from None
     from ..formats.read import read_table
 
     table = read_table(folder / str(points.file))

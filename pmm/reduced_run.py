@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..core.conventions import Conventions
-from ..core.errors import FitError
 from ..core.findings import Finding
 from ..core.motion import scaled_state
 from ..core.ship import Ship
@@ -16,6 +15,7 @@ from ..core.terms import Factor, Term
 from ..identify.harmonics import HarmonicProjector
 from .planar_motion import PlanarMotion
 from .run_types import Run
+from .time_rows import TimeRows
 
 FORCES = ("X", "Y", "N", "K")
 
@@ -50,65 +50,6 @@ class Window:
     def times(self) -> np.ndarray:
         """Times of the samples, shape (count,)."""
         return self.start + self.step * np.arange(self.count)
-
-
-@dataclass(frozen=True, eq=False)
-class TimeRows:
-    """Every sample of a window, condensed without loss for least squares.
-
-    With [A y] = Q R, the few rows of R give the same normal equations as the thousands of samples.
-
-    Attributes
-    ----------
-    triangle : ndarray, shape (q, q)
-        R of the columns of all terms, then of the scaled forces.
-    factors : tuple
-        Which term each column belongs to.
-    forces : tuple of str
-        Forces in the last columns.
-    sd : mapping of str to float
-        Noise of a sample that counts for slow motions: root of the noise density at the run's frequency.
-    """
-
-    triangle: np.ndarray
-    factors: tuple[tuple[Factor, ...], ...]
-    forces: tuple[str, ...]
-    sd: Mapping[str, float]
-
-    @classmethod
-    def condensed(
-        cls,
-        columns: Mapping[tuple[Factor, ...], np.ndarray],
-        scaled: Mapping[str, np.ndarray],
-        sd: Mapping[str, float],
-    ) -> TimeRows:
-        """Rows from the columns of all terms and the scaled forces, each of shape (n,)."""
-        stacked = np.column_stack([*columns.values(), *scaled.values()])
-        return cls(np.asarray(np.linalg.qr(stacked, mode="r")), tuple(columns), tuple(scaled), dict(sd))
-
-    @property
-    def constant(self) -> np.ndarray:
-        """Rows of a constant force of one unit, shape (q,)."""
-        return self.triangle[:, self.factors.index(())]
-
-    def rows(self, component: str, terms: Sequence[Term]) -> tuple[np.ndarray, np.ndarray]:
-        """Design and response of one component.
-
-        Raises
-        ------
-        FitError
-            For a term whose column was not made when the run was read.
-        """
-        missing = [term.name for term in terms if term.factors not in self.factors]
-        if missing:
-            raise FitError(
-                f"the time-domain rows have no column for {', '.join(missing)}",
-                cure="name the term in [fit] or its candidates, so that it is made when the runs are read",
-            )
-        pick = [self.factors.index(term.factors) for term in terms]
-        sign = np.array([float(term.sign) for term in terms])
-        force = len(self.factors) + self.forces.index(component)
-        return self.triangle[:, pick] * sign, self.triangle[:, force]
 
 
 @dataclass(frozen=True, eq=False)
@@ -206,7 +147,7 @@ class ReducedRun:
         return (
             design,
             response,
-            np.full(size, self.samples.sd[component]),
+            self.samples.sd[component],
             np.full(size, lowest),
             -1 - np.arange(size),
         )

@@ -18,15 +18,16 @@ from ..core.findings import Finding
 from ..core.record import Record
 from ..core.scales import force_unit
 from ..core.ship import Ship
-from ..core.terms import Term
+from ..core.terms import Factor, Term
 from ..identify.autocorrelation import mean_with_error
 from ..identify.harmonics import HarmonicProjector, find_frequency, fit_harmonics, whole_cycle_window
 from ..identify.steady_window import steady_window
 from .campaign_file import Reduction
 from .planar_motion import PlanarMotion, measured_motion, prescribed_motion
-from .reduced_run import FORCES, ReducedRun, TimeRows, Window, projected, term_columns
+from .reduced_run import FORCES, ReducedRun, Window, projected, term_columns
 from .rigid_body import RigidBody
 from .run_types import Run
+from .time_rows import HARMONICS, TimeRows
 
 _PORT_UP = ("Y", "N", "y", "psi", "v", "r", "vdot", "rdot")
 
@@ -144,12 +145,7 @@ def _reduce(record: Record, run: Run, plan: ReductionPlan, findings: tuple[Findi
     columns = {} if run.dry else term_columns(at, terms, ship, scale, motion.speed)
     samples = None
     if plan.time_domain and not run.dry:
-        root = math.sqrt(window.count)
-        line = 1 if run.harmonic else 0
-        # sd of a coefficient is sqrt(2 S/n) for a cosine, sqrt(S/n) for a mean
-        noise = {name: sd[line] * root / math.sqrt(1 + line) for name, sd in result.scaled_sd.items()}
-        # The constant is always there: it is what an error of the zero looks like.
-        samples = TimeRows.condensed({(): np.ones(window.count), **columns}, scaled, noise)
+        samples = _time_rows(window, omega, order, columns, scaled, result)
     if result.projector is not None and columns:
         columns = projected(columns, result.projector)
     elif columns:
@@ -347,6 +343,32 @@ def _means(forces: Mapping[str, np.ndarray], scaled: Mapping[str, np.ndarray]) -
         residual_sd={name: float(forces[name].std()) for name in names},
         note=f"mean of {len(forces[names[0]])} samples",
     )
+
+
+def _time_rows(
+    window: Window,
+    omega: float,
+    order: int,
+    columns: Mapping[tuple[Factor, ...], np.ndarray],
+    scaled: Mapping[str, np.ndarray],
+    result: _Coefficients,
+) -> TimeRows:
+    """Samples of a window condensed, with the noise density at the mean and at each harmonic."""
+    columns = {factors: values for factors, values in columns.items() if factors}
+    # Variances are S/n of a mean, 2 S/n of a cosine or sine.
+    if not order:
+        density = {name: window.count * sd[:1] ** 2 for name, sd in result.scaled_sd.items()}
+        return TimeRows.condensed(columns, scaled, density)
+    fine = max(order, min(HARMONICS, int(0.4 * 2.0 * math.pi / (omega * window.step))))
+    projector = HarmonicProjector(window.times, omega, fine)
+    responses = np.column_stack(list(scaled.values()))
+    fit = fit_harmonics(window.times, responses, omega=omega, order=fine, projector=projector)
+    variance = window.count * np.diagonal(fit.cov, axis1=1, axis2=2)
+    # The mean also has the error of the run's own zero, which the fit of harmonics does not know.
+    zero = np.array([window.count * sd[0] ** 2 for sd in result.scaled_sd.values()])
+    lines = (variance[:, 1::2] + variance[:, 2::2]) / 4.0
+    density = {name: np.concatenate([zero[i : i + 1], lines[i]]) for i, name in enumerate(scaled)}
+    return TimeRows.condensed(columns, scaled, density, projector)
 
 
 def point_run(
