@@ -1,0 +1,1 @@
+"""Free decay in roll, heave and pitch: from a record to damping with its uncertainty."""

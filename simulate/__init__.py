@@ -1,0 +1,1 @@
+"""The reference manoeuvring simulator: models, manoeuvres, indices, criteria, ensembles."""
