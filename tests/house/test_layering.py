@@ -13,7 +13,8 @@ FLOORS = [
     ("core",),
     ("datasets",),
     ("identify", "verify", "formats"),
-    ("pmm",),
+    ("pmm", "decay"),
+    ("simulate",),
     ("report", "reproduce"),
     ("cli",),
 ]
