@@ -40,9 +40,10 @@ def run(
     Example: towtank run campaign.toml --out results --accept density
     """
     from ..pmm.campaign import Campaign
-    from ..report.outputs import write_results
+    from ..report.outputs import loading_ahead, write_results
 
-    with progress_bar(not quiet) as progress:
+    with progress_bar(not quiet) as bar:
+        progress = loading_ahead(bar) if report else bar
         loaded = Campaign.load(campaign)
         result = loaded.run(accept_rules=accept or (), progress=progress, workers=workers, compare=report)
         written = write_results(result, out, report=report and result.settings.output.report, progress=progress)

@@ -163,7 +163,7 @@ def plan(
     """
     from ..pmm.further_runs import best_next_run, repeats_for
     from ..pmm.noise import Noise
-    from ..pmm.test_programme import plan as expected
+    from ..pmm.programme import plan as expected
 
     if criterion not in ("D", "A"):
         raise CampaignError(f"'{criterion}' is not a criterion", cure="use D or A")

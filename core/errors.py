@@ -75,5 +75,9 @@ class DatasetError(TowtankError):
     """A published table is unknown or malformed."""
 
 
+class SimulationError(TowtankError):
+    """A manoeuvre cannot be sailed: divergence, reversed flow, a manoeuvre that is not completed."""
+
+
 class TowtankWarning(UserWarning):
     """Something the user should know that does not make the result wrong."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -73,6 +74,7 @@ class Term:
         object.__setattr__(self, "factors", tuple(sorted(self.factors, key=lambda f: ORDER[f.variable])))
 
     @classmethod
+    @lru_cache(maxsize=1024)
     def parse(cls, name: str) -> Term:
         """Read a term from its name.
 

@@ -24,7 +24,6 @@ from .tolerant import LineFaults, parse_patiently
 
 __all__ = ["Dialect", "read_delimited", "sniff"]
 
-_NEWLINE, _RETURN = b"\n\r"
 _ENDS = (b"\n", b"\r", b" ", b"\t", b"\x1a")
 _LARGEST_BLOCK = 2**30
 
@@ -61,16 +60,23 @@ def read_delimited(
 
 
 def parse_delimited(
-    source: SourceFile, dialect: Dialect | None = None, columns: Iterable[str | int] | None = None
+    source: SourceFile,
+    dialect: Dialect | None = None,
+    columns: Iterable[str | int] | None = None,
+    *,
+    compiled: bool = False,
 ) -> RawTable:
-    """Read a text table from bytes in memory; see :func:`read_delimited`."""
+    """Read a text table from bytes in memory; see :func:`read_delimited`.
+
+    With `compiled`, plain numbers are parsed by compiled code, whose start pays from some hundred megabytes on.
+    """
     data = as_single_bytes(source.data)
     wanted = None if columns is None else list(columns)
     fault: ReadError | None = None
     for form in _possible_forms(data, dialect, source.path):
         names = choose_columns(wanted, form.names, form.text_names, file=source.path)
         try:
-            body = _parse(data, form, names, source.path)
+            body = _parse(data, form, names, source.path, compiled)
         except ReadError as error:
             fault = fault or error
         else:
@@ -117,7 +123,7 @@ class _Body:
     faults: LineFaults
 
 
-def _parse(data: bytes, dialect: Dialect, names: Sequence[str], file: str) -> _Body:
+def _parse(data: bytes, dialect: Dialect, names: Sequence[str], file: str, compiled: bool) -> _Body:
     """Numbers below the header: by pyarrow, and by the patient parser where pyarrow refuses."""
     import pyarrow as pa
 
@@ -128,6 +134,10 @@ def _parse(data: bytes, dialect: Dialect, names: Sequence[str], file: str) -> _B
         body = body.decode(dialect.encoding, errors="replace").encode()
     first_line = dialect.first_data_row + 1
     faults = LineFaults()
+    if compiled:
+        plain = _parse_plain(body, dialect, names)
+        if plain:
+            return _Body(plain, faults)
     lines = _count_lines(body)
     cells = body
     if dialect.delimiter == " ":
@@ -152,6 +162,16 @@ def _parse(data: bytes, dialect: Dialect, names: Sequence[str], file: str) -> _B
     if rows + bool(faults.cut) < lines:
         faults.blank = _blank_lines(body, first_line)
     return _Body(columns, faults)
+
+
+def _parse_plain(body: bytes, dialect: Dialect, names: Sequence[str]) -> list[np.ndarray] | None:
+    """Columns of a table in which every cell is a plain number; None when one is not."""
+    if len(dialect.delimiter) != 1 or dialect.delimiter in (" ", FIXED):
+        return None
+    from .plain_numbers import parse_plain
+
+    wanted = [dialect.names.index(name) for name in names]
+    return parse_plain(body, dialect.delimiter, dialect.decimal, len(dialect.names), wanted, int(dialect.trailing))
 
 
 def _parse_fast(cells: bytes, dialect: Dialect, names: Sequence[str], refused: list[str]) -> list[np.ndarray]:
@@ -204,8 +224,7 @@ def _end_of_rows(data: bytes, start: int) -> int:
 
 
 def _count_lines(body: bytes) -> int:
-    characters = np.frombuffer(body, dtype=np.uint8)
-    return int(np.count_nonzero(characters == _NEWLINE) or np.count_nonzero(characters == _RETURN)) + 1
+    return (body.count(b"\n") or body.count(b"\r")) + 1
 
 
 def _has_empty_row(columns: Sequence[np.ndarray]) -> bool:

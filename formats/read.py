@@ -20,6 +20,7 @@ class Choices:
     sheet: str | None = None
     group: str | None = None
     columns: tuple[str | int, ...] | None = None
+    compiled: bool = False
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ class Format:
 def _delimited(source: SourceFile, choices: Choices) -> RawTable:
     from .delimited import parse_delimited
 
-    return parse_delimited(source, choices.dialect, choices.columns)
+    return parse_delimited(source, choices.dialect, choices.columns, compiled=choices.compiled)
 
 
 def _simman(source: SourceFile, choices: Choices) -> RawTable:
@@ -114,6 +115,7 @@ def read_table(
     sheet: str | None = None,
     group: str | None = None,
     columns: Iterable[str | int] | None = None,
+    compiled: bool = False,
 ) -> RawTable:
     """Read a table from a file of any known format.
 
@@ -132,6 +134,8 @@ def read_table(
         Group of an HDF5 or TDMS file, struct of a MATLAB file.
     columns : iterable of str or int, optional
         Names, or numbers from 1, of the columns to read; default all.
+    compiled : bool
+        Parse the numbers of text tables by compiled code: three times as fast, after half a second of start-up.
 
     Raises
     ------
@@ -145,7 +149,7 @@ def read_table(
     source = SourceFile.read(path)
     kind = FORMATS[format] if format != "auto" else detect(source)
     wanted = None if columns is None else tuple(columns)
-    return kind.parse(source, Choices(dialect, sheet, group, wanted))
+    return kind.parse(source, Choices(dialect, sheet, group, wanted, compiled))
 
 
 def detect(source: SourceFile) -> Format:

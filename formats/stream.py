@@ -6,9 +6,11 @@ from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing
+from functools import partial
 from typing import TypeVar
 
 from ..core.errors import ReadError, TowtankError
+from ..core.processes import in_processes
 
 _BATCH = 8
 """Runs that a process takes at a time."""
@@ -41,7 +43,7 @@ def iter_records(
         Threads; with 1 or less the runs are read in the calling thread.
     processes : bool
         Use processes in place of threads: worth their start when there are hundreds of runs. `read_one` and its
-        results must then be picklable.
+        results must then be picklable; where processes cannot be forked they also take seconds to start.
     progress : callable, optional
         Called as ``progress(done, total)`` after each run that is handed out.
 
@@ -60,7 +62,7 @@ def iter_records(
     if workers <= 1:
         results = _in_turn(items, read_one)
     elif processes:
-        results = _in_processes(items, read_one, workers)
+        results = in_processes(partial(_read, read_one), items, workers, batch=_BATCH)
     else:
         results = _ahead(items, read_one, workers)
     with closing(results):
@@ -89,16 +91,6 @@ def _ahead(items: list[Item], read_one: Callable[[Item], Result], workers: int) 
             yield waiting.popleft().result()
     finally:
         pool.shutdown(wait=True, cancel_futures=True)
-
-
-def _in_processes(
-    items: list[Item], read_one: Callable[[Item], Result], workers: int
-) -> Generator[Result, None, None]:
-    from joblib import Parallel, delayed
-
-    # Four batches a worker are under way: enough to keep them busy, few enough to bound the memory.
-    pool = Parallel(n_jobs=workers, return_as="generator", batch_size=_BATCH, pre_dispatch=4 * _BATCH * workers)
-    yield from pool(delayed(_read)(read_one, item) for item in items)
 
 
 def _read(read_one: Callable[[Item], Result], item: Item) -> Result:

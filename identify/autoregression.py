@@ -16,11 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.errors import FitError
+from .burg import burg_recursion
 
 TARGET_BLOCKS = 512
 MAX_ORDER = 20
-# Orders tried in a row without a better AICc before the recursion stops.
-PATIENCE = 4
 # Lines of the periodogram averaged to replace one that a fit emptied.
 NEIGHBOURS = 6
 # Lengths without prime factors above 5, at which a Fourier transform is fast.
@@ -193,54 +192,3 @@ def _power_taken_by_fit(rows: np.ndarray, fitted: Sequence[tuple[float, int]]) -
         shape = math.sqrt(2.0) * np.cos(2.0 * math.pi * f * steps + GOLDEN_ANGLE * turn) if f > 0.0 else 1.0
         back += np.sqrt(count * density / m)[:, None] * shape
     return back
-
-
-def burg_recursion(row: np.ndarray, max_order: int) -> tuple[np.ndarray, float]:
-    """Burg's autoregression of one centred series, order by AICc.
-
-    Parameters
-    ----------
-    row : ndarray, shape (m,)
-        Centred series.
-    max_order : int
-        Highest order tried; the recursion stops earlier after four orders without a gain.
-
-    Returns
-    -------
-    coefficients : ndarray, shape (p + 1,)
-        Prediction-error filter of the chosen order p, first element 1.
-    innovation : float
-        Innovation variance.
-    """
-    m = row.size
-    energy = float(row @ row)
-    power = energy / m
-    reflections: list[float] = []
-    order, innovation = 0, power
-    if power > 0.0 and max_order > 0:
-        criterion = m * math.log(power) + 2.0 * m / (m - 2)
-        # Forward errors in the first row, backward errors in the second; dropping both ends of the flat
-        # array advances the first and delays the second by one sample.
-        errors, denominator = np.concatenate([row, row]), 2.0 * energy
-        for p in range(1, max_order + 1):
-            denominator -= float(errors[0]) ** 2 + float(errors[-1]) ** 2
-            if denominator <= 1e-14 * energy:
-                break
-            pair = errors[1:-1].reshape(2, -1)
-            reflection = -2.0 * float(pair[0] @ pair[1]) / denominator
-            if not abs(reflection) < 1.0:
-                break
-            reflections.append(reflection)
-            errors = (pair + reflection * pair[::-1]).ravel()
-            denominator *= 1.0 - reflection**2
-            power *= 1.0 - reflection**2
-            trial = m * math.log(power) + 2.0 * m * (p + 1) / (m - p - 2)
-            if trial < criterion:
-                criterion, order, innovation = trial, p, power
-            elif p - order >= PATIENCE:
-                break
-    coefficients = np.ones(1)
-    for reflection in reflections[:order]:
-        longer = np.append(coefficients, 0.0)
-        coefficients = longer + reflection * longer[::-1]
-    return coefficients, innovation

@@ -114,6 +114,8 @@ class HarmonicProjector:
     ----------
     orthogonal : bool
         True when uniform sampling over whole cycles makes the columns orthogonal.
+    phasor : ndarray of complex, shape (n,)
+        exp(i (omega t + phase)).
     inverse_gram : ndarray, shape (p, p)
         (B' B)^-1 of the p = 2 order + 1 (+ 1 with trend) columns.
 
@@ -154,6 +156,7 @@ class HarmonicProjector:
         rows = _basis_rows(phasor, order)
         if trend:
             rows = np.vstack([rows, time - self.middle])
+        self.phasor = phasor
         self._rows = rows
         self._pseudo_inverse: np.ndarray | None = None
         whole = abs(self.cycles - round(self.cycles)) <= 1e-9 * self.cycles and round(self.cycles) >= 1
@@ -166,14 +169,13 @@ class HarmonicProjector:
             self._factorise()
 
     def _factorise(self) -> None:
-        scale = np.sqrt(np.einsum("ij,ij->i", self._rows, self._rows))
-        scaled = self._rows / scale[:, None]
-        gram = scaled @ scaled.T
-        eigenvalues, vectors = np.linalg.eigh(gram)
+        gram = self._rows @ self._rows.T
+        scale = np.sqrt(np.diagonal(gram))
+        eigenvalues, vectors = np.linalg.eigh(gram / np.outer(scale, scale))
         if eigenvalues[0] * MAX_GRAM_CONDITION > eigenvalues[-1]:
             inverse = (vectors / eigenvalues) @ vectors.T
         else:
-            q, r = np.linalg.qr(scaled.T)
+            q, r = np.linalg.qr((self._rows / scale[:, None]).T)
             if np.linalg.cond(r) > MAX_CONDITION:
                 raise FitError(
                     f"a window of {self.cycles:.2f} cycles cannot separate {self.order} harmonics",
@@ -183,6 +185,11 @@ class HarmonicProjector:
             inverse = inner @ inner.T
             self._pseudo_inverse = (inner @ q.T) / scale[:, None]
         self.inverse_gram = inverse / np.outer(scale, scale)
+
+    @property
+    def has_normal_equations(self) -> bool:
+        """True when a projection is `inverse_gram` times the products with the basis, exact to rounding."""
+        return self._pseudo_inverse is None
 
     @property
     def basis(self) -> np.ndarray:

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal, get_args
 
 import numpy as np
@@ -58,7 +59,7 @@ class Stationarity:
     p_value: tuple[float, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class WindowChoice:
     """A window and why it was chosen.
 
@@ -72,8 +73,8 @@ class WindowChoice:
         Times of the first and last sample in the window, s.
     note : str
         One sentence for the report.
-    stationarity : Stationarity
-        Trend test of the channels in the window.
+    times, channels : ndarray, shape (n,) and (n, m)
+        Samples of the window.
     """
 
     slice: Rows
@@ -81,7 +82,13 @@ class WindowChoice:
     start_time: float
     stop_time: float
     note: str
-    stationarity: Stationarity
+    times: np.ndarray = field(repr=False)
+    channels: np.ndarray = field(repr=False)
+
+    @cached_property
+    def stationarity(self) -> Stationarity:
+        """Trend test of the channels in the window, made when it is asked for."""
+        return stationarity(self.times, self.channels)
 
     @property
     def is_stationary(self) -> bool:
@@ -172,9 +179,8 @@ def steady_window(
 
 
 def _choice(time: np.ndarray, channels: np.ndarray, window: Rows, rule: str, note: str) -> WindowChoice:
-    verdict = stationarity(time[window], channels[window])
     begin, end = float(time[window.start]), float(time[window.stop - 1])
-    return WindowChoice(window, rule, begin, end, note, verdict)
+    return WindowChoice(window, rule, begin, end, note, time[window], channels[window])
 
 
 def _require_samples(count: int, where: str) -> None:

@@ -13,6 +13,7 @@ from ..core.conventions import Conventions
 from ..core.derivative_set import DerivativeSet
 from ..core.errors import CampaignError, TowtankError
 from ..core.findings import Finding, accept, stop_on_error
+from ..core.processes import Later, can_fork
 from ..core.provenance import Provenance, file_hash, program_versions
 from ..core.ship import Ship
 from ..core.terms import Term
@@ -27,13 +28,16 @@ from .reduced_run import ReducedRun
 from .reduction import ReductionPlan
 from .rigid_body import RigidBody
 from .run_groups import group_runs, shown_runs
+from .run_matrix import expand_runs
 from .run_reading import RunReader
 from .run_summary import run_summary
 from .run_types import Run
-from .test_matrix import expand_runs
 
-_BYTES_WORTH_PROCESSES = 200e6
-"""Campaigns with more bytes are read in processes, which start slowly but share no interpreter lock."""
+_LARGE = 200e6
+"""Campaigns with more bytes are read by compiled code in processes, which start slowly."""
+
+_MANY_RUNS = 200
+"""Runs from which on comparisons are made in a process of their own."""
 
 Progress = Callable[[str, int, int], None]
 """Called with what is being done, how many are done, how many there are."""
@@ -158,7 +162,11 @@ class Campaign:
             progress("fitting", len(groups), len(groups))
         stop_on_error(findings)
         fits = [self._finished(fit, findings, waived) for fit in fits]
-        comparisons = self._comparisons(fits, progress) if compare else {}
+        comparisons: Mapping[str, Any] = {}
+        if compare and len(reduced) > _MANY_RUNS and workers > 1 and can_fork():
+            comparisons = Later(partial(self._comparisons, fits, None))
+        elif compare:
+            comparisons = self._comparisons(fits, progress)
         return CampaignResult(
             campaign=self.file.campaign,
             path=self.path,
@@ -221,15 +229,16 @@ class Campaign:
         TowtankError
             For bad input, or an error of the audit that is not in `waived`.
         """
-        reader = RunReader(self.file, self.path, self.ship, self.conventions, waived)
-        plan = self._plan(reader)
         wet = [run for run in self.runs if not run.dry]
+        large = sum(run.file.stat().st_size for run in wet if run.file) > _LARGE
+        reader = RunReader(self.file, self.path, self.ship, self.conventions, waived, large)
+        plan = self._plan(reader)
         report = partial(progress, "reading runs") if progress else None
         work = partial(reader.read_and_reduce, plan=plan)
-        size = sum(run.file.stat().st_size for run in wet if run.file)
-        many = workers > 2 and size > _BYTES_WORTH_PROCESSES
+        many = large and workers > 1 and (can_fork() or workers > 2)
         if many:
-            reader.learn(wet[0])
+            # What one run teaches and compiles is there for every process.
+            work(wet[0])
         reduced = list(iter_records(wet, work, workers=workers, processes=many, progress=report))
         findings = [*reader.findings, *(item for run in reduced for item in run.findings)]
         digests = {self.path.name: file_hash(self.path)}

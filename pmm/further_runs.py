@@ -13,8 +13,8 @@ import numpy as np
 from ..core.errors import CampaignError, FitError
 from ..identify.design_optimality import Criterion, augment_greedily, rank_candidates, repeats_for_target
 from .planned_rows import planned_rows
+from .programme import Programme
 from .run_types import Run
-from .test_programme import Programme
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -18,7 +18,7 @@ from ..identify.harmonics import HarmonicProjector
 from .campaign_file import Points, Reduction, RunGroup
 from .planar_motion import prescribed_motion
 from .reduced_run import FORCES, ReducedRun, Window
-from .test_matrix import make_run, matrix_rows
+from .run_matrix import make_run, matrix_rows
 
 _COLUMN = re.compile(r"(?P<force>[XYNK])(?:(?P<mean>0)|(?P<kind>[cs])(?P<harmonic>[1-9]\d?))(?P<sd>_sd)?$")
 

@@ -13,11 +13,9 @@ from ..core.conventions import Conventions
 from ..core.derivative_set import DerivativeSet
 from ..core.errors import FitError, TowtankError
 from ..core.hull_models import hull_model
-from ..core.motion import scaled_state
 from ..core.provenance import Provenance
 from ..core.ship import Ship
 from ..core.terms import Term
-from ..core.variables import GRAVITY
 from .campaign_file import Fit
 from .component_fit import ComponentFit, default_stages, fit_component
 from .force_rows import force_rows
@@ -242,17 +240,11 @@ def _validity(runs: Sequence[ReducedRun], terms: Sequence[Term]) -> dict[str, tu
     low: dict[str, float] = {}
     high: dict[str, float] = {}
     for run in runs:
-        count = 24 if run.order else 1
-        period = run.run.period if run.order else 0.0
-        times = run.window.start + period * np.arange(count) / count
-        state, speed = scaled_state(
-            run.motion.at(times), run.ship, Conventions(velocity_scale=run.velocity_scale), run.motion.speed
-        )
-        if run.speed_given:
-            state["Fn"] = speed / math.sqrt(GRAVITY * run.ship.L)
-        for variable in (used | {"Fn"}) & set(state):
-            low[variable] = min(low.get(variable, math.inf), float(np.min(state[variable])))
-            high[variable] = max(high.get(variable, -math.inf), float(np.max(state[variable])))
+        ranges = run.reach()
+        for variable in (used | {"Fn"}) & set(ranges):
+            least, most = ranges[variable]
+            low[variable] = min(low.get(variable, math.inf), least)
+            high[variable] = max(high.get(variable, -math.inf), most)
     return {variable: (low[variable], high[variable]) for variable in sorted(low)}
 
 

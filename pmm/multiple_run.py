@@ -243,18 +243,19 @@ class _CurveFitter:
 
     def _first_harmonic(self, drifting: Sequence[_Test], yaw: Sequence[_Test]) -> None:
         """Coupling from cos 1: what yaw alone gives is one unknown for each yaw amplitude."""
-        levels: list[_Test] = []
-        for test in drifting:
-            if not any(_same_yaw(test, other) for other in levels):
-                levels.append(test)
-        used = [test for test in yaw if any(_same_yaw(test, level) for level in levels)]
+        levels = _yaw_levels(drifting)
+        belongs = _same_yaw(yaw, levels)
+        # A run that is alone at its level settles the intercept there and tells nothing else.
+        levels, belongs = levels[belongs.sum(axis=0) > 1], belongs[:, belongs.sum(axis=0) > 1]
+        used = [test for test, member in zip(yaw, belongs.any(axis=1), strict=True) if member]
+        belongs = belongs[belongs.any(axis=1)]
         coupled = [term for term in self.terms if "v" in term.variables]
         alone = [term for term in self.terms if "v" not in term.variables]
         columns = []
-        for test in used:
+        for test, member in zip(used, belongs, strict=True):
             amplitude = test.motion.amplitude if test.motion else 0.0
             yaws = any(test.columns(alone, COS1))
-            intercepts = [amplitude if yaws and _same_yaw(test, level) else 0.0 for level in levels]
+            intercepts = amplitude * member if yaws else np.zeros(len(levels))
             columns.append(np.concatenate([test.columns(coupled, COS1), intercepts]))
         self._fit("yaw with drift, cos 1 (MRL)", coupled, used, columns, COS1)
 
@@ -316,12 +317,24 @@ def _pure(test: _Test) -> bool:
     return test.motion is not None and not test.motion.drift and conditions_are_zero(test.run)
 
 
-def _same_yaw(a: _Test, b: _Test) -> bool:
-    if a.motion is None or b.motion is None:
-        return False
-    return math.isclose(a.motion.amplitude, b.motion.amplitude, rel_tol=_SAME) and math.isclose(
-        a.motion.frequency, b.motion.frequency, rel_tol=_SAME
-    )
+def _yaw_levels(tests: Sequence[_Test]) -> np.ndarray:
+    """Amplitudes and frequencies of yaw that occur, each once, shape (k, 2)."""
+    found = np.empty((0, 2))
+    for test in tests:
+        if not _same_yaw([test], found).any():
+            found = np.vstack([found, _yaw_of(test)])
+    return found
+
+
+def _yaw_of(test: _Test) -> tuple[float, float]:
+    return (test.motion.amplitude, test.motion.frequency) if test.motion else (math.nan, math.nan)
+
+
+def _same_yaw(tests: Sequence[_Test], levels: np.ndarray) -> np.ndarray:
+    """Whether each test has the yaw amplitude and frequency of each level, shape (n, k)."""
+    own = np.array([_yaw_of(test) for test in tests])[:, None, :]
+    near = np.abs(own - levels) <= _SAME * np.maximum(np.abs(own), np.abs(levels))
+    return np.asarray(near.all(axis=2))
 
 
 def multiple_run_derivatives(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -12,10 +13,12 @@ from ..core.findings import Finding
 from ..core.motion import scaled_state
 from ..core.ship import Ship
 from ..core.terms import Factor, Term
+from ..core.variables import GRAVITY
 from ..identify.harmonics import HarmonicProjector
 from .planar_motion import PlanarMotion
 from .run_types import Run
 from .time_rows import TimeRows
+from .window_motion import WindowMotion
 
 FORCES = ("X", "Y", "N", "K")
 
@@ -89,6 +92,8 @@ class ReducedRun:
         False for a non-dimensional point whose speed is not known; it then has a unit speed.
     samples : TimeRows or None
         All samples of the window, condensed for a fit in the time domain.
+    ranges : mapping of str to (float, float)
+        What :meth:`reach` gives, when it is known already.
     """
 
     run: Run
@@ -109,6 +114,7 @@ class ReducedRun:
     zero_sd: Mapping[str, float] = field(default_factory=dict)
     speed_given: bool = True
     samples: TimeRows | None = None
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict, repr=False)
     columns: dict[tuple[Factor, ...], np.ndarray] = field(default_factory=dict, repr=False)
 
     @property
@@ -152,6 +158,16 @@ class ReducedRun:
             -1 - np.arange(size),
         )
 
+    def reach(self) -> Mapping[str, tuple[float, float]]:
+        """Smallest and largest value of each non-dimensional variable, and of ``Fn`` where the speed is known."""
+        if self.ranges:
+            return self.ranges
+        count = 24 if self.order else 1
+        period = self.run.period if self.order else 0.0
+        at = self.motion.at(self.window.start + period * np.arange(count) / count)
+        found = motion_ranges(at, self.ship, self.velocity_scale, self.motion.speed)
+        return found if self.speed_given else {name: one for name, one in found.items() if name != "Fn"}
+
     def state(self) -> dict[str, float]:
         """Mean non-dimensional state of the run: v, r, beta, phi, delta, eta."""
         times = self.window.times if self.order else np.array([self.window.start])
@@ -159,6 +175,15 @@ class ReducedRun:
             self.motion.at(times), self.ship, Conventions(velocity_scale=self.velocity_scale), self.motion.speed
         )
         return {name: float(np.mean(value)) for name, value in values.items()}
+
+
+def motion_ranges(
+    at: Mapping[str, np.ndarray], ship: Ship, velocity_scale: str, approach_speed: float
+) -> dict[str, tuple[float, float]]:
+    """Smallest and largest value of each non-dimensional variable of a motion, and of the Froude number ``Fn``."""
+    state, speed = scaled_state(at, ship, Conventions(velocity_scale=velocity_scale), approach_speed)
+    state["Fn"] = speed / math.sqrt(GRAVITY * ship.L)
+    return {name: (float(np.min(values)), float(np.max(values))) for name, values in state.items()}
 
 
 def project_terms(
@@ -182,20 +207,11 @@ def project_terms(
     projector : HarmonicProjector, optional
         That of the window, when it is there already.
     """
-    times = window.times if order else np.array([window.start])
-    columns = term_columns(motion.at(times), terms, ship, velocity_scale, motion.speed)
-    if not order or not columns:
-        return columns
-    projector = projector or HarmonicProjector(times, motion.omega, order)
-    return projected(columns, projector)
-
-
-def projected(
-    columns: Mapping[tuple[Factor, ...], np.ndarray], projector: HarmonicProjector
-) -> dict[tuple[Factor, ...], np.ndarray]:
-    """Mean and harmonics of columns of samples."""
-    values = projector.project(np.column_stack(list(columns.values())))
-    return {factors: values[:, i] for i, factors in enumerate(columns)}
+    terms, times = tuple(terms), window.times if order else np.array([window.start])
+    if order and projector is None:
+        projector = HarmonicProjector(times, motion.omega, order)
+    over = WindowMotion(motion, times, projector if order else None)
+    return over.projections(lambda at: term_columns(at, terms, ship, velocity_scale, motion.speed))
 
 
 def term_columns(

@@ -7,7 +7,7 @@ level, filter, window, reference point, motion, inertia, non-dimensional form, m
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,10 +24,11 @@ from ..identify.harmonics import HarmonicProjector, find_frequency, fit_harmonic
 from ..identify.steady_window import steady_window
 from .campaign_file import Reduction
 from .planar_motion import PlanarMotion, measured_motion, prescribed_motion
-from .reduced_run import FORCES, ReducedRun, Window, projected, term_columns
+from .reduced_run import FORCES, ReducedRun, Window, motion_ranges, term_columns
 from .rigid_body import RigidBody
 from .run_types import Run
 from .time_rows import HARMONICS, TimeRows
+from .window_motion import WindowMotion
 
 _PORT_UP = ("Y", "N", "y", "psi", "v", "r", "vdot", "rdot")
 
@@ -122,34 +123,33 @@ def _reduce(record: Record, run: Run, plan: ReductionPlan, findings: tuple[Findi
         record = record.with_channels(f"N: moved from x = {settings.moment_x:g} m to midship")
     motion, step = _motion(record, run, settings)
     record = record.with_channels(step)
-    at = motion.at(window.times)
+    order = settings.harmonics if run.harmonic else 0
+    projector = HarmonicProjector(window.times, omega, order) if run.harmonic else None
+    over = WindowMotion(motion, window.times, projector)
     if plan.inertia is not None:
-        for name, reaction in plan.inertia.forces(at).items():
+        for name, reaction in over.samples(plan.inertia.forces).items():
             if name in forces:
                 forces[name] = forces[name] + reaction
         record = record.with_channels(f"inertia: {plan.inertia.describe()} added back")
+    scale = settings.nondimensional_speed
     # A model in air has no speed to scale forces with; 1 m/s keeps them finite.
-    speed = np.ones(window.count) if run.dry else _scaling_speed(at, motion, settings.nondimensional_speed)
-    scaled = {name: values / (force_unit(name, "LT", ship, 1.0) * speed**2) for name, values in forces.items()}
-    if run.harmonic:
-        result = _harmonics(window, omega, settings.harmonics, forces, scaled)
-    else:
-        result = _means(forces, scaled)
+    square = np.ones(1) if run.dry else over.samples(_square_of_speed(motion, scale))["U2"]
+    scaled = {name: values / (force_unit(name, "LT", ship, 1.0) * square) for name, values in forces.items()}
+    result = (
+        _harmonics(projector, window.times, forces, scaled) if projector is not None else _means(forces, scaled)
+    )
     for name, error in zero_sd.items():
-        unit = force_unit(name, "LT", ship, float(np.sqrt(np.mean(speed**2))))
+        unit = force_unit(name, "LT", ship, float(np.sqrt(np.mean(square))))
         result.scaled_sd[name][0] = math.hypot(result.scaled_sd[name][0], error / unit)
-    order = settings.harmonics if run.harmonic else 0
-    if order == 0 and not plan.time_domain:
-        at = {name: values[:1] for name, values in at.items()}
-    terms, scale = plan.terms, settings.nondimensional_speed
-    columns = {} if run.dry else term_columns(at, terms, ship, scale, motion.speed)
-    samples = None
-    if plan.time_domain and not run.dry:
-        samples = _time_rows(window, omega, order, columns, scaled, result)
-    if result.projector is not None and columns:
-        columns = projected(columns, result.projector)
-    elif columns:
-        columns = {factors: values[:1].copy() for factors, values in columns.items()}
+
+    def columns_at(at: Mapping[str, np.ndarray]) -> dict[tuple[Factor, ...], np.ndarray]:
+        return term_columns(at, plan.terms, ship, scale, motion.speed)
+
+    columns, samples = {}, None
+    if plan.terms and not run.dry:
+        columns = over.projections(columns_at)
+        if plan.time_domain:
+            samples = _time_rows(window, omega, order, columns_at(over.at), scaled, result)
     return ReducedRun(
         run=run,
         ship=ship,
@@ -168,6 +168,7 @@ def _reduce(record: Record, run: Run, plan: ReductionPlan, findings: tuple[Findi
         series=forces if run.name in plan.keep_series else {},
         samples=samples,
         columns=columns,
+        ranges={} if run.dry else motion_ranges(over.in_short, ship, scale, motion.speed),
     )
 
 
@@ -287,10 +288,17 @@ def _motion(record: Record, run: Run, settings: Reduction) -> tuple[PlanarMotion
     return motion, f"motion: measured, {settings.motion_harmonics} harmonics of y and psi, exact kinematics"
 
 
-def _scaling_speed(at: Mapping[str, np.ndarray], motion: PlanarMotion, scale: str) -> np.ndarray:
-    if scale == "approach":
-        return np.full(np.shape(at["surge"]), motion.speed)
-    return np.hypot(at["surge"], at["v"])
+def _square_of_speed(
+    motion: PlanarMotion, scale: str
+) -> Callable[[Mapping[str, np.ndarray]], dict[str, np.ndarray]]:
+    """Square of the speed that scales the forces, as a function of the motion."""
+
+    def square(at: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        if scale == "approach":
+            return {"U2": np.full(np.shape(at["surge"]), motion.speed**2)}
+        return {"U2": at["surge"] ** 2 + at["v"] ** 2}
+
+    return square
 
 
 @dataclass(frozen=True)
@@ -301,15 +309,16 @@ class _Coefficients:
     dof: dict[str, np.ndarray]
     residual_sd: dict[str, float]
     note: str
-    projector: HarmonicProjector | None = None
 
 
 def _harmonics(
-    window: Window, omega: float, order: int, forces: Mapping[str, np.ndarray], scaled: Mapping[str, np.ndarray]
+    projector: HarmonicProjector,
+    times: np.ndarray,
+    forces: Mapping[str, np.ndarray],
+    scaled: Mapping[str, np.ndarray],
 ) -> _Coefficients:
     names = list(forces)
-    times = window.times
-    projector = HarmonicProjector(times, omega, order)
+    omega, order = projector.omega, projector.order
     responses = np.column_stack([scaled[name] for name in names])
     fit = fit_harmonics(times, responses, omega=omega, order=order, projector=projector)
     dimensional = projector.project(np.column_stack([forces[name] for name in names]))
@@ -327,7 +336,6 @@ def _harmonics(
             name: float(np.atleast_1d(fit.residual_std)[i]) * abs(unit[i]) for i, name in enumerate(names)
         },
         note=f"mean and {order} harmonics by least squares at {omega:.6g} rad/s",
-        projector=projector,
     )
 
 
@@ -392,7 +400,7 @@ def point_run(
     """
     motion = prescribed_motion(run)
     at = motion.at(np.zeros(1))
-    speed = float(_scaling_speed(at, motion, velocity_scale)[0])
+    speed = math.sqrt(float(_square_of_speed(motion, velocity_scale)(at)["U2"][0]))
     forces = {name: np.array([value * force_unit(name, "LT", ship, speed)]) for name, value in scaled.items()}
     return ReducedRun(
         run=run,

@@ -42,6 +42,8 @@ class RunReader:
         Axes and signs of the data.
     waived : frozenset of str
         Audit rules that the user accepts.
+    large : bool
+        The campaign holds so much text that compiled code is worth its start.
     digests : dict of str to str
         sha256 of every file read so far.
     findings : list of Finding
@@ -55,6 +57,7 @@ class RunReader:
     ship: Ship
     conventions: Conventions
     waived: frozenset[str] = frozenset()
+    large: bool = False
     digests: dict[str, str] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     zero_sd: dict[str, dict[str, float]] = field(default_factory=dict)
@@ -122,6 +125,7 @@ class RunReader:
                 sheet=reader.sheet,
                 group=reader.group,
                 columns=channels.expected_columns(),
+                compiled=self.large,
             )
         except ReadError as error:
             named = (
@@ -133,11 +137,6 @@ class RunReader:
             self._dialects[path.suffix] = table.dialect
         self.digests[self.name_of(path)] = table.sha256
         return table
-
-    def learn(self, run: Run) -> None:
-        """Read one file to learn the dialect of its kind, which then travels with the reader to every process."""
-        if run.file is not None:
-            self._table(run.file)
 
     def name_of(self, path: Path) -> str:
         """Name of a file relative to the campaign file."""

@@ -47,6 +47,7 @@ FROM_MEAN = " from mean"
 """Ending of the name of a second estimate that stands on the mean instead of a harmonic."""
 
 _SAME = 0.01
+_YAW_TEST, _DRIFT_TEST = ("speed", "frequency", "sway_amplitude"), ("speed", "drift_angle")
 
 
 class Estimate(NamedTuple):
@@ -83,6 +84,10 @@ def single_run_derivatives(
     FitError
         When the run has fewer than three harmonics, or its motion does not oscillate.
     """
+    return _derivatives(run, form, _Companions(companions))
+
+
+def _derivatives(run: ReducedRun, form: Form, companions: _Companions) -> dict[str, Estimate]:
     if not conditions_are_zero(run):
         return {}
     if run.run.kind not in OSCILLATING:
@@ -140,12 +145,9 @@ def _pure(run: ReducedRun, motion: SinusoidMotion, form: Form) -> dict[str, Esti
     return estimates
 
 
-def _yaw_with_drift(
-    run: ReducedRun, motion: SinusoidMotion, companions: Sequence[ReducedRun]
-) -> dict[str, Estimate]:
+def _yaw_with_drift(run: ReducedRun, motion: SinusoidMotion, companions: _Companions) -> dict[str, Estimate]:
     estimates: dict[str, Estimate] = {}
-    pure_yaw = next((other for other in companions if _same_yaw(other, run)), None)
-    drift = next((other for other in companions if _same_drift(other, run)), None)
+    pure_yaw, drift = companions.pure_yaw(run), companions.static_drift(run)
     for component in LATERAL:
         if component not in run.scaled:
             continue
@@ -175,24 +177,45 @@ def _quotient(value: float, sd: float, divisor: float) -> Estimate:
     return Estimate(float(value / divisor), float(sd / abs(divisor)))
 
 
-def _same_test(other: ReducedRun, run: ReducedRun, *parameters: str) -> bool:
-    """True when two runs agree in speed, depth and the `parameters` of the test matrix, and `other` is level."""
-    mine, theirs = run.run, other.run
-    return (
-        all(math.isclose(getattr(mine, p), getattr(theirs, p), rel_tol=_SAME) for p in ("speed", *parameters))
-        and other.ship.depth == run.ship.depth
-        and conditions_are_zero(other)
-    )
+class _Companions:
+    """Level runs that yaw with drift may be compared with.
+
+    Parameters
+    ----------
+    runs : sequence of ReducedRun
+    """
+
+    def __init__(self, runs: Sequence[ReducedRun]) -> None:
+        level = [run for run in runs if conditions_are_zero(run)]
+        self._yaw = [
+            run
+            for run in level
+            if run.run.kind in ("pure_yaw", "yaw_drift") and not run.run.drift_angle and run.order >= 1
+        ]
+        self._drift = [run for run in level if run.run.kind == "static_drift"]
+        # As arrays: a large campaign asks for each of its runs.
+        self._yaw_tests = _parameters(self._yaw, _YAW_TEST)
+        self._drift_tests = _parameters(self._drift, _DRIFT_TEST)
+
+    def pure_yaw(self, run: ReducedRun) -> ReducedRun | None:
+        """The first pure yaw run of the same speed, depth, frequency and amplitude."""
+        return _first_like(self._yaw, self._yaw_tests, _parameters([run], _YAW_TEST)[0])
+
+    def static_drift(self, run: ReducedRun) -> ReducedRun | None:
+        """The first static drift run of the same speed, depth and drift angle."""
+        return _first_like(self._drift, self._drift_tests, _parameters([run], _DRIFT_TEST)[0])
 
 
-def _same_yaw(other: ReducedRun, run: ReducedRun) -> bool:
-    kinds = ("pure_yaw", "yaw_drift")
-    level = other.run.kind in kinds and not other.run.drift_angle and other.order >= 1
-    return level and _same_test(other, run, "frequency", "sway_amplitude")
+def _parameters(runs: Sequence[ReducedRun], names: Sequence[str]) -> np.ndarray:
+    """Parameters of the test matrix and the inverse of the water depth, shape (n, p + 1)."""
+    rows = [[*(getattr(run.run, name) for name in names), 1.0 / run.ship.depth] for run in runs]
+    return np.array(rows, dtype=float).reshape(len(runs), len(names) + 1)
 
 
-def _same_drift(other: ReducedRun, run: ReducedRun) -> bool:
-    return other.run.kind == "static_drift" and _same_test(other, run, "drift_angle")
+def _first_like(runs: Sequence[ReducedRun], tests: np.ndarray, wanted: np.ndarray) -> ReducedRun | None:
+    same = np.abs(tests - wanted) <= _SAME * np.maximum(np.abs(tests), np.abs(wanted))
+    rows = np.flatnonzero(same.all(axis=1))
+    return runs[rows[0]] if rows.size else None
 
 
 def single_run_table(runs: Sequence[ReducedRun], *, form: Form = "cubic") -> pd.DataFrame:
@@ -214,9 +237,10 @@ def single_run_table(runs: Sequence[ReducedRun], *, form: Form = "cubic") -> pd.
     rows: list[tuple[str, str, str, float, float, str]] = []
     left_out: list[str] = []
     without: Counter[str] = Counter()
+    companions = _Companions(runs)
     for run in runs:
         try:
-            estimates = single_run_derivatives(run, form=form, companions=runs)
+            estimates = _derivatives(run, form, companions)
         except FitError as error:
             left_out.append(f"{run.name}: {error.cause}")
             continue

@@ -16,8 +16,8 @@ from ..core.conventions import HOME, Conventions
 from ..core.errors import CampaignError
 from ..core.ship import Ship
 from .campaign_file import RunGroup
+from .run_matrix import expand_runs
 from .run_types import ANGLES, RUN_PARAMETERS, Run, run_type
-from .test_matrix import expand_runs
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -33,7 +33,7 @@ COMPONENT_COLOURS = {"X": GREEN, "Y": BLUE, "N": VERMILLION, "K": PURPLE}
 PANEL = (3.45, 2.35)
 """Width and height in inch of a figure that shares a row with others."""
 
-CROWD, CROWD_DPI = 300, 160
+CROWD, CROWD_DPI = 120, 160
 """More marks than this in one artist are drawn as an image inside the SVG, with this resolution."""
 
 _VARIABLE_COLOURS = {INK: "var(--ink)", RULE: "var(--rule)", MUTED: "var(--muted)"}

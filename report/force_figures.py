@@ -9,7 +9,7 @@ from ..pmm.hull_fit import HullFit
 from .figure_style import CYCLE, INK, MARKERS, new_axes, small_legend, spread_evenly
 from .force_curves import Sweep, curve_along, harmonic_name, interval_factor, motion_amplitude
 
-MOST_RUNS = 60
+MOST_RUNS = 40
 """Runs of one kind that a figure of harmonics shows."""
 
 FORCE_NAMES = {"X": "surge force X′", "Y": "sway force Y′", "N": "yaw moment N′", "K": "roll moment K′"}
@@ -97,13 +97,16 @@ def amplitude_fit(fit: HullFit, kind: str, component: str, *, most: int = 3, ax:
     fitted = rows.design @ result.params
     factor = interval_factor(np.inf)
     label = ""
+    known: dict[int, tuple[float, str]] = {}
     for number, harmonic in enumerate(sorted(sorted(sizes, key=lambda h: -sizes[h])[:most])):
         colour, marker = CYCLE[number], MARKERS[number]
         where = np.flatnonzero(chosen & (rows.harmonic == harmonic))
         where = where[spread_evenly(len(where), MOST_RUNS)]
         amplitudes = []
         for index in rows.run[where].tolist():
-            amplitude, label = motion_amplitude(fit.runs[index])
+            if index not in known:
+                known[index] = motion_amplitude(fit.runs[index])
+            amplitude, label = known[index]
             amplitudes.append(amplitude)
         x = np.array(amplitudes)
         order = np.argsort(x, kind="stable")

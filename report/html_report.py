@@ -33,9 +33,11 @@ from .run_tables import diagnostics_table, harmonics_table, remarks, runs_table
 from .typography import fixed, significant
 
 if TYPE_CHECKING:
+    import pandas as pd
     from jinja2 import Template
 
-    from .report_figures import Drawing, Row
+    from ..core.derivative_set import DerivativeSet
+    from .report_figures import Sections
 
 HERE = Path(__file__).parent
 
@@ -66,13 +68,8 @@ class GroupPage:
     name: str
     units: str
     table: Table
-    forest: Drawing
     conventions: Table
     validity: Table
-    fits: tuple[Row, ...]
-    residuals: Row
-    agreement: Row
-    series: tuple[Row, ...]
     harmonics: Table
     ways: Table | None
     left_out: tuple[str, ...]
@@ -80,7 +77,41 @@ class GroupPage:
     ranges: Table | None
     diagnostics: Table
     remarks: tuple[tuple[str, str, str], ...]
-    correlation: Drawing | None
+    drawn: Sections
+
+
+class ReportPage:
+    """The report of a campaign; its drawings are begun at once, for a large campaign in other processes.
+
+    Parameters
+    ----------
+    result : CampaignResult
+    """
+
+    def __init__(self, result: CampaignResult) -> None:
+        # drawing needs matplotlib, which the command line must not load at its start
+        from .report_figures import draw_sections
+
+        self._result = result
+        self._written = [result.written(fit) for fit in result.fits]
+        self._drawn = [
+            draw_sections(fit, written, f"g{number}")
+            for number, (fit, written) in enumerate(zip(result.fits, self._written, strict=True), start=1)
+        ]
+
+    def render(
+        self, *, created: datetime | None = None, progress: Callable[[str, int, int], None] | None = None
+    ) -> str:
+        """The page as HTML; see :func:`render_report`."""
+        groups, count = [], len(self._drawn)
+        for number, fit in enumerate(self._result.fits):
+            if progress:
+                progress("drawing", number, count)
+            page = _group(self._result, fit, self._written[number], f"g{number + 1}", self._drawn[number])
+            groups.append(page)
+        if progress:
+            progress("drawing", count, count)
+        return _render(self._result, groups, created)
 
 
 def render_report(
@@ -104,13 +135,10 @@ def render_report(
     str
         A page that needs nothing beside itself: style and drawings are inside.
     """
-    groups = []
-    for number, fit in enumerate(result.fits):
-        if progress:
-            progress("drawing", number, len(result.fits))
-        groups.append(_group(result, fit, f"g{number + 1}"))
-    if progress:
-        progress("drawing", len(result.fits), len(result.fits))
+    return ReportPage(result).render(created=created, progress=progress)
+
+
+def _render(result: CampaignResult, groups: list[GroupPage], created: datetime | None) -> str:
     moment = (created or datetime.now(UTC)).astimezone(UTC)
     versions = program_versions()
     chosen, defaults = choices_tables(result.settings)
@@ -172,15 +200,24 @@ def _template() -> Template:
     return environment.get_template("report.html.j2")
 
 
-def _group(result: CampaignResult, fit: HullFit, anchor: str) -> GroupPage:
-    # drawing needs matplotlib, which the command line must not load at its start
-    from .report_figures import Draughtsman
-
-    written = result.written(fit)
+def _group(
+    result: CampaignResult,
+    fit: HullFit,
+    written: DerivativeSet,
+    anchor: str,
+    drawn: Callable[[pd.DataFrame | None], Sections],
+) -> GroupPage:
+    # The tables first: the drawings may be under way in other processes.
+    tables = {
+        "table": derivative_table(fit, written, result.settings.fit.shared_bias),
+        "conventions": conventions_table(written),
+        "validity": validity_table(written),
+        "harmonics": harmonics_table(fit),
+        "diagnostics": diagnostics_table(fit),
+    }
     ways = result.comparison("three ways", fit.label)
     candidates = result.comparison("candidates", fit.label)
     ranges = result.comparison("range", fit.label)
-    draw = Draughtsman(fit, written, anchor)
     left_out: list[str] = []
     if ways is not None:
         left_out = [*ways.attrs.get("single_run_left_out", []), *ways.attrs.get("multiple_run_left_out", [])]
@@ -189,22 +226,13 @@ def _group(result: CampaignResult, fit: HullFit, anchor: str) -> GroupPage:
         label=fit.label,
         name=written.name,
         units=units_text(written),
-        table=derivative_table(fit, written, result.settings.fit.shared_bias),
-        forest=draw.forest(ways),
-        conventions=conventions_table(written),
-        validity=validity_table(written),
-        fits=tuple(draw.force_fits()),
-        residuals=draw.residuals(),
-        agreement=draw.agreement(),
-        series=tuple(draw.series()),
-        harmonics=harmonics_table(fit),
         ways=None if ways is None else three_ways_table(ways, fit.derivatives),
         left_out=tuple(left_out),
         candidates=None if candidates is None else candidates_table(candidates),
         ranges=None if ranges is None else range_table(ranges, fit.derivatives),
-        diagnostics=diagnostics_table(fit),
         remarks=tuple(remarks(fit)),
-        correlation=draw.correlation() if written.covariance is not None else None,
+        drawn=drawn(ways),
+        **tables,
     )
 
 
@@ -212,7 +240,7 @@ def _present(page: dict[str, Any]) -> dict[str, str]:
     """The sections that have something to show."""
     groups: list[GroupPage] = page["groups"]
     empty = {
-        "series": not any(group.series for group in groups),
+        "series": not any(group.drawn.series for group in groups),
         "harmonics": not any(group.harmonics.rows for group in groups),
         "ways": not any(group.ways for group in groups),
         "models": not any(group.candidates or group.ranges for group in groups),

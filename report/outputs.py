@@ -11,7 +11,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from functools import partial
+from importlib import import_module
 from pathlib import Path
+from threading import Thread
 from typing import TYPE_CHECKING, Any
 
 from ..core.errors import TowtankError
@@ -25,6 +27,9 @@ if TYPE_CHECKING:
 Progress = Callable[[str, int, int], None]
 
 PROVENANCE, PROVENANCE_FORMAT = "provenance.json", "towtank provenance 1"
+
+MANY_RUNS = 200
+"""Runs from which on it pays to load libraries while they are read."""
 
 COMPARISONS = {"three ways": "three-ways.csv", "candidates": "candidates.csv", "range": "range.csv"}
 """Kind of comparison and the file that its tables go to."""
@@ -70,13 +75,17 @@ def write_results(
     wanted = result.settings.output.report if report is None else report
     writers = _writers(result, wanted, progress)
     with _beside(out) as folder:
+        names: list[str] = []
         for number, (name, write) in enumerate(writers):
             if progress:
                 progress("writing", number, len(writers))
             write(folder / name)
+            if (folder / name).exists():
+                names.append(name)
+        _json(provenance(result) | {"files": [*names, PROVENANCE]}, folder / PROVENANCE)
+        names.append(PROVENANCE)
         if progress:
             progress("writing", len(writers), len(writers))
-        names = [name for name, _ in writers]
         _publish(folder, out, names)
     return [out / name for name in names]
 
@@ -84,25 +93,55 @@ def write_results(
 Writer = Callable[[Path], Any]
 
 
+def loading_ahead(progress: Progress) -> Progress:
+    """`progress` that also loads what drawing and fitting need, in the background of the reading of many runs.
+
+    The runs of a large campaign are read by other processes while this one waits.
+    """
+    started: list[Thread] = []
+
+    def load() -> None:
+        for module in ("scipy.special", "towtank.report.report_figures"):
+            import_module(module)
+
+    def advance(what: str, done: int, total: int) -> None:
+        # Not before the first run has arrived: processes must not be forked in the middle of an import.
+        if not started and done and total >= MANY_RUNS:
+            started.append(Thread(target=load, daemon=True))
+            started[0].start()
+        progress(what, done, total)
+
+    return advance
+
+
 def _writers(result: CampaignResult, report: bool, progress: Progress | None) -> list[tuple[str, Writer]]:
-    """Names of the files and what writes each."""
-    writers: list[tuple[str, Writer]] = [("derivatives.csv", _csv(result.derivatives_frame)), *_sets(result)]
-    writers += [
+    """Names of the files and what writes each; a comparison that was not made writes none."""
+    page_writers: list[tuple[str, Writer]] = []
+    if report:
+        from .html_report import ReportPage
+
+        # Its drawings, and the comparisons, may be under way in other processes: they are asked for last.
+        page = ReportPage(result)
+
+        def write_page(path: Path) -> None:
+            path.write_text(page.render(progress=progress), encoding="utf-8")
+
+        page_writers = [("report.html", write_page)]
+    return [
+        ("derivatives.csv", _csv(result.derivatives_frame)),
+        *_sets(result),
         ("harmonics.csv", _csv(result.harmonics_frame)),
         ("runs.csv", _csv(result.runs_frame)),
         ("findings.csv", _csv(result.findings_frame)),
+        *((name, partial(_write_comparison, result, kind)) for kind, name in COMPARISONS.items()),
+        *page_writers,
     ]
-    for kind, name in COMPARISONS.items():
-        frame = comparison_frame(result, kind)
-        if frame is not None:
-            writers.append((name, partial(frame.to_csv, index=False)))
-    if report:
-        from .html_report import write_report
 
-        writers.append(("report.html", lambda path: write_report(result, path, progress=progress)))
-    names = [name for name, _ in writers]
-    writers.append((PROVENANCE, lambda path: _json(provenance(result) | {"files": [*names, PROVENANCE]}, path)))
-    return writers
+
+def _write_comparison(result: CampaignResult, kind: str, path: Path) -> None:
+    frame = comparison_frame(result, kind)
+    if frame is not None:
+        frame.to_csv(path, index=False)
 
 
 def _csv(frame: Callable[[], pd.DataFrame]) -> Writer:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from matplotlib.axes import Axes
 
 from ..core.derivative_set import DerivativeSet
+from ..core.processes import can_fork, in_processes
 from ..pmm.hull_fit import HullFit
 from .derivative_figures import correlation_map, derivative_forest
 from .figure_style import Sheet, inline_svg
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 
 RUNS_OF_A_KIND = 2
 """Runs of one kind and different amplitudes from which harmonics are drawn against amplitude."""
+
+MANY_RUNS = 200
+"""Runs from which on the drawings are shared among processes."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +47,57 @@ class Row:
     key: tuple[tuple[str, str], ...] = ()
 
 
+@dataclass(frozen=True)
+class Sections:
+    """The drawings of one group by their sections of the page."""
+
+    forest: Drawing
+    fits: tuple[Row, ...]
+    residuals: Row
+    agreement: Row
+    series: tuple[Row, ...]
+    correlation: Drawing | None
+
+
+def draw_sections(fit: HullFit, written: DerivativeSet, prefix: str) -> Callable[[pd.DataFrame | None], Sections]:
+    """Every drawing of a group; those of a large campaign are begun at once in other processes.
+
+    Parameters
+    ----------
+    fit : HullFit
+    written : DerivativeSet
+        The set in the conventions of the output.
+    prefix : str
+        Unique in the page, e.g. ``g1``.
+
+    Returns
+    -------
+    callable
+        Gives the drawings when it is told the derivatives of the three ways (or None).
+    """
+    # The longest first, so that the processes end together.
+    drawers: dict[str, Callable[[Draughtsman], Any]] = {
+        "series": lambda draw: tuple(draw.series()),
+        "fits": lambda draw: tuple(draw.force_fits()),
+        "residuals": Draughtsman.residuals,
+        "agreement": Draughtsman.agreement,
+        "correlation": lambda draw: draw.correlation() if written.covariance is not None else None,
+    }
+
+    def drawn(name: str) -> Any:
+        return drawers[name](Draughtsman(fit, written, f"{prefix}-{name}"))
+
+    names = list(drawers)
+    shared = len(fit.runs) > MANY_RUNS and can_fork()
+    drawings = in_processes(drawn, names, 2) if shared else map(drawn, names)
+
+    def sections(ways: pd.DataFrame | None) -> Sections:
+        forest = Draughtsman(fit, written, f"{prefix}-forest").forest(ways)
+        return Sections(forest=forest, **dict(zip(names, drawings, strict=True)))
+
+    return sections
+
+
 class Draughtsman:
     """Draws the figures of one group; panels of equal size share one sheet.
 
@@ -52,7 +107,7 @@ class Draughtsman:
     written : DerivativeSet
         The set in the conventions of the output.
     prefix : str
-        Unique in the page, e.g. ``g1``.
+        Unique in the page, e.g. ``g1-series``.
     """
 
     def __init__(self, fit: HullFit, written: DerivativeSet, prefix: str) -> None:

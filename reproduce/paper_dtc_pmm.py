@@ -26,6 +26,7 @@ from ..pmm.standard_matrices import standard_matrix
 from .case import Case, Paper, half_digit
 from .closed_loop import ROUND_TRIP, largest_difference, mean_forces, refitted
 from .dtc_particulars import particular_cases
+from .dtc_turning import turning_cases
 from .printed_numbers import printed_by, printed_rows, ship_of
 from .rounding import rounding_spread
 
@@ -42,6 +43,7 @@ def cases() -> Iterator[Case]:
     yield from _exact_kinematics()
     yield from _programme()
     yield from particular_cases(KEY)
+    yield from turning_cases(KEY)
 
 
 # Static drift ---------------------------------------------------------------------------------------------------

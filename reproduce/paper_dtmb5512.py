@@ -18,6 +18,7 @@ from ..verify import relative_errors
 from .case import Case, Paper, half_digit
 from .closed_loop import ROUND_TRIP, largest_difference, mean_forces, refitted, virtual_runs
 from .dtmb5512_grids import grid_cases
+from .dtmb5512_steering import steering_cases
 from .printed_numbers import printed_by, printed_rows
 from .rounding import spread_of
 
@@ -37,6 +38,7 @@ def cases() -> Iterator[Case]:
     yield from _pure_sway_loop()
     yield from _pure_yaw_bias()
     yield from grid_cases(KEY)
+    yield from steering_cases(KEY)
 
 
 def _particulars() -> Iterator[Case]:

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ..core.derivative_set import DerivativeSet, joined
 from ..core.hull_models import hull_model
 from ..core.scales import mass_coefficient
 from ..core.ship import Ship
-from ..datasets import load_extras, load_set
+from ..datasets import load_set
 from ..pmm.run_types import Run
 from ..pmm.standard_matrices import standard_matrix
+from ..simulate.bank import bank_equilibrium
 from .case import Case, Paper, half_digit
 from .closed_loop import ROUND_TRIP, largest_difference, mean_forces, refitted
+from .paper_pcc_stability import ship_near_bank
 from .printed_numbers import KNOT, printed_rows, ship_of
 from .rounding import spread_of
 
@@ -172,26 +175,18 @@ def _check_helm() -> Iterator[Case]:
     them, belongs to the stability equations.
     """
     eta = 0.27
-    rudder = load_extras("pcc-hd1.2")["rudder"]
-    drift, bank = load_set("pcc-hd1.2"), load_set("pcc-bank-hd1.2")
-
-    def helm(yaw_cubic: float) -> float:
-        sway = drift["Yv"] + bank["Yvetaeta"] * eta**2
-        yaw = drift["Nv"] + bank["Nvetaeta"] * eta**2
-        side = bank["Yeta"] + bank["Yetaetaeta"] * eta**2
-        turn = bank["Neta"] + yaw_cubic * eta**2
-        return math.degrees(eta * (side * yaw - turn * sway) / (sway * rudder["Nd"] - yaw * rudder["Yd"]))
-
-    printed = bank["Netaetaeta"]
+    ship = ship_near_bank(1.2)
+    tenth = replace(ship, Netaetaeta=ship.Netaetaeta / 10)
+    helm, likely = (abs(math.degrees(bank_equilibrium(one, eta).helm)) for one in (ship, tenth))
     yield Case(
         KEY,
         "Table 5, h/d = 1.2, eta = 0.27 L",
         "size of the check helm in deg, text",
         35.0,
-        abs(helm(printed)),
+        helm,
         half_digit(0),
-        note=f"the text says 35 deg near this place. Netaetaeta = {printed:g} is suspect: with a tenth of it the "
-        f"check helm is {abs(helm(printed / 10)):.0f} deg",
+        note=f"the text says 35 deg near this place. Netaetaeta = {ship.Netaetaeta:g} is suspect: with a tenth "
+        f"of it the check helm is {likely:.0f} deg",
     )
 
 

@@ -10,6 +10,7 @@ from ..verify import relative_errors
 from .case import Case, Paper, half_digit
 from .printed_numbers import printed_rows
 from .rounding import spread_of
+from .s175_turning import turning_cases
 
 KEY = "s175"
 
@@ -30,6 +31,7 @@ def cases() -> Iterator[Case]:
     yield from _turning_errors()
     yield from _added_masses_in_shallow_water()
     yield from _depth_multipliers()
+    yield from turning_cases(KEY)
 
 
 def _scaling() -> Iterator[Case]:

@@ -20,7 +20,7 @@ NO_ADDED_MASS = {
     "dtmb5512-yaw-efd", "ferry", "fsb", "inland-deep", "inland-shallow", "kvlcc2-empirical",
     "kvlcc2-shallow-cfd", "kvlcc2-shallow-empirical", "onrt", "pcc-deep",
 }  # fmt: skip
-SURGE_TERMS = {"esso-190k", "mariner", "s175"}
+SURGE_TERMS = {"dtmb5512-steering-efd", "esso-190k", "mariner", "s175"}
 """Sets whose terms in the surge velocity cannot go to another velocity scale exactly."""
 
 

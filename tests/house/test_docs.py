@@ -21,8 +21,8 @@ from towtank.formats.channels import ALIASES, DIMENSIONS
 from towtank.formats.read import FORMATS
 from towtank.pmm.campaign_file import load_campaign_file
 from towtank.pmm.empirical_derivatives import EMPIRICAL_SETS
+from towtank.pmm.run_matrix import expand_runs
 from towtank.pmm.run_types import RUN_PARAMETERS, RUN_TYPES
-from towtank.pmm.test_matrix import expand_runs
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = sorted(ROOT.glob("docs/*.md"))

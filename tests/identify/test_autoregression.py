@@ -7,7 +7,8 @@ from scipy.signal import lfilter
 from statsmodels.regression.linear_model import burg
 
 from towtank.core.errors import FitError
-from towtank.identify.autoregression import AutoregressiveNoise, burg_recursion, fit_autoregression
+from towtank.identify.autoregression import AutoregressiveNoise, fit_autoregression
+from towtank.identify.burg import burg_recursion
 
 
 def ar2(n: int, seed: int) -> np.ndarray:

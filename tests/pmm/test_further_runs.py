@@ -12,9 +12,9 @@ from towtank.core.errors import CampaignError, FitError, TermError
 from towtank.pmm.further_runs import best_next_run, repeats_for
 from towtank.pmm.laboratory import Laboratory
 from towtank.pmm.noise import Noise
+from towtank.pmm.programme import plan
 from towtank.pmm.run_types import Run
 from towtank.pmm.standard_matrices import standard_matrix
-from towtank.pmm.test_programme import plan
 
 LAB = Laboratory(sampling_rate=10.0, duration=20.0, cycles=2)
 NOISE = Noise(ar1=0.05, rho=0.9)

@@ -18,9 +18,9 @@ from towtank.pmm.laboratory import Laboratory
 from towtank.pmm.noise import Noise
 from towtank.pmm.planar_motion import prescribed_motion
 from towtank.pmm.rigid_body import RigidBody, identify_rigid_body
+from towtank.pmm.run_matrix import expand_runs
 from towtank.pmm.run_types import Run
 from towtank.pmm.standard_matrices import matrix_from_csv, standard_matrix
-from towtank.pmm.test_matrix import expand_runs
 from towtank.pmm.virtual_campaign import campaign_text, synthesize, synthesize_records
 
 SHORT = Laboratory(sampling_rate=10.0, duration=10.0, cycles=2)

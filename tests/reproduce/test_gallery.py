@@ -10,15 +10,24 @@ from towtank.reproduce import gallery, papers
 
 VERDICTS = {
     # reproduced, after correction, not reproducible
-    "dtc-pmm": (79, 2, 2),
+    "dtc-pmm": (113, 2, 2),
     "dtmb5415-scaling": (6, 0, 9),
-    "dtmb5512": (81, 2, 16),
+    "dtmb5512": (83, 2, 16),
     "dtmb-static-drift": (15, 2, 0),
+    "esso": (42, 0, 0),
+    "fluid-memory": (26, 0, 0),
+    "ikeda": (44, 1, 0),
     "inland": (72, 0, 1),
     "kcs-depths": (34, 2, 4),
+    "kcs-mmg": (21, 0, 0),
     "kcs-waves": (22, 0, 0),
+    "kvlcc2-mmg": (43, 0, 0),
+    "mariner": (38, 0, 0),
+    "nls-svm": (29, 0, 6),
     "pcc-bank": (49, 0, 2),
-    "s175": (34, 3, 0),
+    "roll-at-sea": (53, 1, 2),
+    "s175": (47, 3, 7),
+    "s175-4dof": (103, 0, 2),
 }
 
 

@@ -15,11 +15,11 @@ from towtank.pmm.campaign_file import Fit, Reduction
 from towtank.pmm.hull_fit import fit_hull
 from towtank.pmm.laboratory import Laboratory
 from towtank.pmm.noise import Noise
+from towtank.pmm.programme import plan
 from towtank.pmm.reduction import ReductionPlan, reduce_run
 from towtank.pmm.rigid_body import RigidBody
 from towtank.pmm.run_types import Run
 from towtank.pmm.standard_matrices import standard_matrix
-from towtank.pmm.test_programme import plan
 from towtank.pmm.virtual_records import virtual_campaign
 
 LAB = Laboratory(sampling_rate=10.0, duration=20.0, cycles=2)

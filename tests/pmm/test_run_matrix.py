@@ -11,7 +11,7 @@ import pytest
 from towtank.core.conventions import HOME, Conventions
 from towtank.core.errors import CampaignError
 from towtank.pmm.campaign_file import RunGroup
-from towtank.pmm.test_matrix import expand_runs
+from towtank.pmm.run_matrix import expand_runs
 
 DEGREES = Conventions(angle_unit="deg")
 

@@ -1,0 +1,141 @@
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from towtank.core.errors import AuditError, FitError, ReadError
+from towtank.core.record import Record
+from towtank.core.ship import Ship
+from towtank.decay.decay_record import decay_from_table, read_decay
+
+DATA = Path(__file__).resolve().parents[3] / "shared" / "data" / "decay_kvlcc2"
+
+
+def table(**changes: np.ndarray) -> dict[str, np.ndarray]:
+    time = np.arange(0.0, 40.0, 0.1)
+    return {"time": time, "phi": 0.3 * np.exp(-0.02 * time) * np.cos(0.6 * time), **changes}
+
+
+def test_degrees_and_radians_are_the_same_record():
+    radians = decay_from_table(table(), unit="rad")
+    degrees = decay_from_table(table(phi=np.degrees(table()["phi"])), unit="deg")
+    np.testing.assert_allclose(degrees.value, radians.value)
+    assert degrees.steps == ("phi: deg -> rad",)
+
+
+def test_sources_of_a_record():
+    data = table()
+    frame = pd.DataFrame(data)
+    record = Record(data, source="run 7.csv", sha256="abc")
+    for source in (frame, record):
+        made = decay_from_table(source, unit="rad")
+        np.testing.assert_array_equal(made.value, data["phi"])
+    assert decay_from_table(record).name == "run 7"
+
+
+def test_unit_must_be_declared():
+    with pytest.raises(ReadError, match="not declared"):
+        decay_from_table(table())
+    with pytest.raises(ReadError, match="does not measure heave"):
+        decay_from_table(table(), unit="rad", motion="heave")
+    with pytest.raises(ReadError, match="no column 'psi'"):
+        decay_from_table(table(), angle="psi", unit="rad")
+    with pytest.raises(ReadError, match="motion 'yaw' is unknown"):
+        decay_from_table(table(), unit="rad", motion="yaw")
+    with pytest.raises(ReadError, match="holds text"):
+        decay_from_table({"time": np.arange(3), "phi": np.array(["a", "b", "c"])}, unit="rad")
+
+
+def test_degrees_for_radians_are_caught_both_ways():
+    large = table(phi=np.degrees(table()["phi"]))
+    with pytest.raises(AuditError, match=r"\[angle-in-degrees\].*57\.3"):
+        decay_from_table(large, unit="rad")
+    with pytest.raises(AuditError, match=r"\[angle-in-radians\].*57\.3"):
+        decay_from_table(table(), unit="deg")
+    accepted = decay_from_table(table(), unit="deg", accepted=["angle-in-radians"])
+    assert accepted.findings[0].accepted
+
+
+def test_full_scale_by_froude(make_decay, literature):
+    model = replace(make_decay(literature), scale=25.0, speed=0.5)
+    full = model.at_scale(1.0)
+    np.testing.assert_allclose(full.time, 5.0 * model.time)
+    np.testing.assert_array_equal(full.value, model.value)
+    assert full.speed == pytest.approx(2.5)
+    assert full.period == pytest.approx(5.0 * model.period, rel=1e-9)
+    heave = decay_from_table(table(), angle="phi", unit="m", motion="heave", scale=25.0).at_scale(1.0)
+    assert heave.value[0] == pytest.approx(25.0 * 0.3)
+    with pytest.raises(FitError, match="not positive"):
+        model.at_scale(0.0)
+
+
+def test_rest_position_and_drift_are_taken_off(make_decay, literature):
+    record = make_decay(literature, offset=0.02)
+    np.testing.assert_allclose(record.centred().value, record.value - 0.02, atol=2e-4)
+    drifting = replace(record, value=record.value + 2e-4 * record.time)
+    np.testing.assert_allclose(drifting.centred("drift").value, make_decay(literature).value, atol=6e-4)
+    assert record.centred("none") is record
+    with pytest.raises(FitError, match="offset 'mean' is unknown"):
+        record.centred("mean")
+
+
+def test_filter_delays_nothing(make_decay, literature):
+    noisy = make_decay(literature, noise=0.2, correlation=0.0)
+    clean = make_decay(literature).value
+    filtered = noisy.filtered()
+    assert "forward and backward" in filtered.steps[-1]
+    assert np.std(filtered.value - clean) < 0.6 * np.std(noisy.value - clean)
+    lag = np.argmax(np.correlate(filtered.value[100:-100], clean[100:-100], "full")) - (clean.size - 201)
+    assert lag == 0
+
+
+def test_cut_by_time_and_automatically(make_decay, literature):
+    record = make_decay(literature)
+    cut = record.free_part(start=5.0, end=40.0)
+    assert (cut.time[0], cut.time[-1]) == (pytest.approx(5.0), pytest.approx(40.0))
+    assert cut.whole is record
+    late = record.free_part(first_amplitude=0.25)
+    assert np.abs(late.value).max() < 0.3
+    early = record.free_part(last_amplitude=0.2)
+    assert early.time[-1] < record.time[-1] / 2.0
+    with pytest.raises(FitError, match="lie between"):
+        record.free_part(start=59.8)
+
+
+def test_derivatives_are_those_of_the_motion(make_decay, literature):
+    record = make_decay(literature, step=0.05).with_derivatives()
+    inner = slice(100, -100)
+    x, v, a = record.value[inner], record.rate[inner], record.acceleration[inner]
+    balance = a + 0.04 * v + 0.15 * np.abs(v) * v + 0.3 * v**3 + 0.36 * x
+    assert np.abs(balance).max() < 5e-3 * np.abs(a).max()
+
+
+def test_file_without_a_unit(tmp_path):
+    path = tmp_path / "run.csv"
+    pd.DataFrame(table()).to_csv(path, index=False)
+    with pytest.raises(ReadError, match="the file prints none"):
+        read_decay(path)
+    assert len(read_decay(path, unit="rad").sha256) == 64
+
+
+def test_printed_unit_is_used_and_a_contradiction_told(tmp_path):
+    path = tmp_path / "run.csv"
+    data = table()
+    pd.DataFrame({"time [s]": data["time"], "phi [deg]": np.degrees(data["phi"])}).to_csv(path, index=False)
+    np.testing.assert_allclose(read_decay(path).value, data["phi"])
+    with pytest.raises(AuditError, match="angle-in-degrees"):
+        read_decay(path, unit="rad")
+
+
+@pytest.mark.skipif(not DATA.is_dir(), reason="open measurements are not here")
+def test_kvlcc2_model_test_starts_where_it_is_free():
+    ship = Ship("KVLCC2", 320.0, 58.0, 20.8, volume=312653.0, GM=5.73, kxx=23.2, rho=1000.0)
+    record = read_decay(DATA / "model_test_21337.csv", unit="rad", scale=68.0, ship=ship)
+    free = record.free_part().centred()
+    assert free.time[0] == pytest.approx(26.2, abs=0.05)
+    assert "taken for pushes" in free.steps[0]
+    assert record.findings == ()
+    wrong = read_decay(DATA / "model_test_21337.csv", unit="rad", scale=1.0, ship=ship)
+    assert [item.rule for item in wrong.findings] == ["period-against-ship"]

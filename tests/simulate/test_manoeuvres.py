@@ -1,0 +1,87 @@
+"""Programmes of the standard manoeuvres: events, their order, and what they do."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from towtank.core.errors import SimulationError
+from towtank.simulate.manoeuvres import (
+    initial_turning,
+    pull_out,
+    reverse_spiral,
+    schedule,
+    spiral,
+    turning,
+    williamson,
+    zigzag,
+)
+from towtank.simulate.sail import sail_events
+from towtank.simulate.ships import named_ship
+
+KVLCC2 = named_ship("kvlcc2")
+
+
+def test_names_of_the_events():
+    assert turning(35, 360).event_names() == (
+        "execute", "heading 10", "heading 20", "heading 30", "heading 60", "heading 90", "heading 180",
+        "heading 270", "maximum advance", "maximum transfer", "end",
+    )  # fmt: skip
+    names = set(zigzag(10, overshoots=2).event_names())
+    assert names == {"execute 1", "execute 2", "execute 3", "extreme 1", "extreme 2", "end"}
+    assert zigzag(-20, 10).name == "zigzag -20/10"
+
+
+def test_modified_zigzag_switches_at_its_heading():
+    events = sail_events(KVLCC2, zigzag(20, 10)).events
+    assert math.degrees(events.at("execute 2", "psi")[0]) == pytest.approx(10.0, abs=1e-9)
+    assert math.degrees(events.at("extreme 1", "delta")[0]) == pytest.approx(-20.0, abs=1e-9)
+
+
+def test_initial_turning_is_the_beginning_of_a_turn():
+    first = sail_events(KVLCC2, initial_turning(10)).events
+    turn = sail_events(KVLCC2, turning(10, 90)).events
+    assert first["heading 10"][0] == pytest.approx(turn["heading 10"][0], rel=1e-3, abs=1e-3)
+
+
+def test_pull_out_begins_in_the_steady_turn():
+    events = sail_events(KVLCC2, pull_out(20)).events
+    turn = sail_events(KVLCC2, turning(20, 1080)).events
+    assert events.at("execute", "r")[0] == pytest.approx(turn.at("end", "r")[0], rel=2e-3)
+    assert abs(events.at("end", "r")[0]) < 0.05 * events.at("execute", "r")[0]
+
+
+def test_spiral_holds_each_angle_until_the_turn_is_steady():
+    events = sail_events(KVLCC2, spiral((20, 10, -10), there_and_back=True)).events
+    angles = [math.degrees(events.at(f"steady {k}", "delta")[0]) for k in range(1, 6)]
+    assert angles == pytest.approx([20, 10, -10, 10, 20], abs=1e-9)
+    turn = sail_events(KVLCC2, turning(20, 1080)).events
+    assert events.at("steady 5", "r")[0] == pytest.approx(turn.at("end", "r")[0], rel=2e-3)
+
+
+def test_reverse_spiral_finds_the_angle_of_a_steady_turn():
+    rate = math.degrees(sail_events(KVLCC2, turning(10, 1080)).events.at("end", "r")[0])
+    events = sail_events(KVLCC2, reverse_spiral([rate], gain=20.0, integral=2.0)).events
+    assert math.degrees(events.at("steady 1", "delta")[0]) == pytest.approx(10.0, abs=0.1)
+
+
+def test_williamson_turn_comes_back_on_the_reciprocal_course_near_its_track():
+    events = sail_events(KVLCC2, williamson(35)).events
+    assert math.degrees(events.at("shift", "psi")[0]) == pytest.approx(60.0, abs=1e-9)
+    assert math.degrees(events.at("end", "psi")[0]) == pytest.approx(-180.0, abs=0.1)
+    assert abs(events.at("end", "y")[0]) < 2.0 * KVLCC2.ship.L
+
+
+@pytest.mark.parametrize("make", [turning, zigzag, initial_turning, pull_out, williamson])
+def test_rudder_of_zero_is_an_error(make):
+    with pytest.raises(SimulationError, match="neither side"):
+        make(0.0)
+
+
+def test_schedule_with_blanks_or_without_order_is_an_error():
+    with pytest.raises(SimulationError, match="without blanks"):
+        schedule([0.0, 1.0], [0.0, np.nan])
+    with pytest.raises(SimulationError, match="do not ascend"):
+        sail_events(KVLCC2, schedule([0.0, 2.0, 1.0], [0.0, 1.0, 2.0]))
