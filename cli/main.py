@@ -74,6 +74,9 @@ def main(arguments: list[str] | None = None) -> None:
         reason = error.strerror or str(error)
         _fail(f"{error.filename or 'output'}: {reason} -> give a path that you may read and write", 2)
     except Exception as error:
+        if type(error).__name__ == "NoArgsIsHelpError":
+            # the help has been printed
+            sys.exit(2)
         if _is_usage(error):
             _fail(_usage_text(error), 2)
         if debug:

@@ -82,6 +82,31 @@ class EquivalentDamping:
         degrees = np.degrees(self.amplitude)
         return np.pi * self.alpha / self.omega / degrees
 
+    def bertin_frame(self) -> pd.DataFrame:
+        """Bertin's N in 1/deg with its limits, one row an amplitude."""
+        import pandas as pd
+
+        degrees = np.degrees(self.amplitude)
+        factor = self.bertin / self.alpha
+        columns = {
+            "angle [deg]": degrees,
+            "N [1/deg]": self.bertin,
+            "N lower [1/deg]": self.alpha_lower * factor,
+            "N upper [1/deg]": self.alpha_upper * factor,
+            "inside the record": self.inside,
+        }
+        return pd.DataFrame(columns)
+
+    def dimensional_frame(self, inertia: float, hat: float) -> pd.DataFrame:
+        """B44 in N m s and B44-hat with their limits, for an inertia in kg m2 and the factor of the hat form."""
+        frame = self.to_frame().iloc[:, :2].copy()
+        for name, value in (("", self.B), (" lower", self.B_lower), (" upper", self.B_upper)):
+            frame[f"B44{name} [N m s]"] = value * inertia
+            frame[f"B44-hat{name} [-]"] = value * inertia * hat
+        frame["inside the record"] = self.inside
+        frame.attrs["inertia [kg m2]"] = inertia
+        return frame
+
     def to_frame(self) -> pd.DataFrame:
         """One row an amplitude; units stand in the column names."""
         import pandas as pd

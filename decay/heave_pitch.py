@@ -21,6 +21,7 @@ from ..core.ship import Ship
 from ..core.variables import GRAVITY
 from .decay_record import DecayRecord
 from .extremes import find_extremes
+from .logarithmic_decrement import damping_ratio
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -28,16 +29,6 @@ if TYPE_CHECKING:
 FEWEST_TURNING_POINTS = 3
 AMPLITUDE_TREND = 0.3
 """Spread of the ratio of damping over the record, relative, above which damping is said to depend on amplitude."""
-
-
-def light_damping_ratio(decrement: np.ndarray | float) -> np.ndarray | float:
-    """``delta / 2 pi`` from the logarithmic decrement of a full cycle: the limit of light damping."""
-    return decrement / (2.0 * math.pi)
-
-
-def exact_damping_ratio(decrement: np.ndarray | float) -> np.ndarray | float:
-    """``delta / sqrt(4 pi^2 + delta^2)`` from the logarithmic decrement of a full cycle."""
-    return decrement / np.sqrt(4.0 * math.pi**2 + np.square(decrement))
 
 
 def logarithmic_decrement_of(zeta: np.ndarray | float) -> np.ndarray | float:
@@ -124,7 +115,7 @@ class DecayRatio:
         columns = {
             "amplitude": self.amplitude,
             "zeta": self.zeta_of_cycle,
-            "zeta_light": light_damping_ratio(decrement),
+            "zeta_light": damping_ratio(decrement, "light"),
         }
         return pd.DataFrame(columns)
 
@@ -171,12 +162,12 @@ def decay_ratio(record: DecayRecord) -> DecayRatio:
     spread = float(weight @ (decrement - mean) ** 2)
     effective = 1.0 / float(weight @ weight)
     error = math.sqrt(spread / max(effective - 1.0, 1.0)) if decrement.size > 1 else math.nan
-    zeta = float(exact_damping_ratio(mean))
+    zeta = float(damping_ratio(mean))
     periods = np.array([t[1] - t[0] for t, _, _ in cycles])
     damped = 2.0 * math.pi / float(periods.mean())
     natural = damped / math.sqrt(1.0 - zeta**2)
     scatter = float(periods.std(ddof=1)) / math.sqrt(periods.size) if periods.size > 1 else math.nan
-    of_cycle = np.asarray(exact_damping_ratio(decrement))
+    of_cycle = damping_ratio(decrement)
     return DecayRatio(
         motion=record.motion,
         amplitude=amplitude,
@@ -184,7 +175,7 @@ def decay_ratio(record: DecayRecord) -> DecayRatio:
         zeta=zeta,
         # d zeta / d delta is nearly 1/(2 pi) for every damping that oscillates.
         zeta_sd=error * zeta / mean if mean > 0.0 else math.nan,
-        zeta_light=float(light_damping_ratio(mean)),
+        zeta_light=float(damping_ratio(mean, "light")),
         omega_d=damped,
         omega_n=natural,
         omega_n_sd=natural * scatter * damped / (2.0 * math.pi),

@@ -11,7 +11,6 @@ import numpy as np
 from ..core.errors import FitError
 from .damping_models import DampingModel
 from .decay_record import DecayRecord
-from .equation import simulate_decay
 from .fit_diagnostics import FittedRun
 
 #: How a simulated decay starts: fitted, or at the record's own first sample and slope.
@@ -61,6 +60,8 @@ def simulate_record(
     offset: float = 0.0,
 ) -> Simulated | None:
     """The record simulated with its gradients; None when the motion diverges."""
+    from .equation import simulate_decay
+
     path = simulate_decay(record.time, start, coefficients, curve=model.curve, sensitivities=True)
     if not np.isfinite(path[-1]).all():
         return None

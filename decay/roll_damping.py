@@ -200,18 +200,7 @@ class RollDamping(CoefficientTable):
 
     def bertin(self, degrees: Sequence[float] = BERTIN_ANGLES) -> pd.DataFrame:
         """Bertin's N in 1/deg at angles in degrees, as IMO MSC.1/Circ.1200 asks for them, with the band."""
-        import pandas as pd
-
-        at = self.equivalent(np.radians(degrees))
-        factor = np.pi / at.omega / np.asarray(degrees)
-        columns = {
-            "angle [deg]": np.asarray(degrees, dtype=float),
-            "N [1/deg]": at.alpha * factor,
-            "N lower [1/deg]": at.alpha_lower * factor,
-            "N upper [1/deg]": at.alpha_upper * factor,
-            "inside the record": at.inside,
-        }
-        return pd.DataFrame(columns)
+        return self.equivalent(np.radians(degrees)).bertin_frame()
 
     def dimensional(
         self,
@@ -252,16 +241,8 @@ class RollDamping(CoefficientTable):
                 f"'{hull.name}' is given at scale {hull.scale:g}, the damping at {self.scale:g}",
                 cure="use ship.at_scale(...) or damping.at_scale(...)",
             )
-        at = self.equivalent(amplitude, speed=speed)
         total = total_inertia(hull, self.omega_n, inertia)
-        hat = nondimensional_factor(hull)
-        frame = at.to_frame().iloc[:, :2].copy()
-        for name, value in (("", at.B), (" lower", at.B_lower), (" upper", at.B_upper)):
-            frame[f"B44{name} [N m s]"] = value * total
-            frame[f"B44-hat{name} [-]"] = value * total * hat
-        frame["inside the record"] = at.inside
-        frame.attrs["inertia [kg m2]"] = total
-        return frame
+        return self.equivalent(amplitude, speed=speed).dimensional_frame(total, nondimensional_factor(hull))
 
     def in_degrees(self) -> pd.DataFrame:
         """Coefficients of the equation with angles in degrees: b2 is smaller by 57.3, b3 and c3 by its square."""

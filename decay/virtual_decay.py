@@ -17,7 +17,8 @@ import numpy as np
 from ..core.errors import FitError
 from ..core.ship import Ship
 from .damping_models import MOTION_UNITS, TERMS
-from .decay_record import MOTION_CHANNELS, DecayRecord
+from .decay_input import MOTION_CHANNELS
+from .decay_record import DecayRecord
 from .equation import simulate_decay
 from .excited_roll import Excitation, simulate_excited_roll
 from .fluid_memory import simulate_memory_decay

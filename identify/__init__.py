@@ -12,6 +12,9 @@
 ``normal_equations``          the same over many runs without keeping their rows
 ``robust``                    Huber
 ``ridge``                     ridge and truncated singular values, chosen by left-out rows or runs
+``lssvm``                     least-squares support vector machine as a scikit-learn regressor
+``lssvm_linear``              its linear kernel in the primal: coefficients with covariance
+``lssvm_curve``               its smooth curve of uniform samples, fast (``toeplitz_*``)
 ``constrained``               signs, bounds, equalities, prior
 ``bootstrap``                 resampling of whole runs
 ``shared_bias``               errors that all runs share
@@ -64,6 +67,9 @@ _HOMES = {
     ),
     "model_selection": ("LeftOutScore", "compare_models", "left_out_runs", "range_sensitivity"),
     "linear_fit": ("LinearFit",),
+    "lssvm": ("LSSVMRegressor",),
+    "lssvm_curve": ("LSSVMCurve", "fit_lssvm_curve"),
+    "lssvm_linear": ("LSSVMFit", "fit_lssvm"),
     "normal_equations": ("NormalEquations", "StackedFit", "fit_stacked"),
     "regression": ("fit_linear",),
     "ridge": ("RidgeFit", "fit_ridge", "fit_truncated_svd"),

@@ -286,7 +286,8 @@ class LSSVMRegressor(RegressorMixin, BaseEstimator):
         self._learn(y, curve.weights, curve.fitted, curve.solution.open)
 
     def _fit_samples(self, x: np.ndarray, y: np.ndarray, weights: np.ndarray, labels: np.ndarray | None) -> None:
-        members = groups_of_several(_same_input(x) if labels is None else labels, len(y))
+        codes = np.unique(x, axis=0, return_inverse=True)[1].reshape(-1) if labels is None else labels
+        members = groups_of_several(codes, len(y))
         own = np.ones(len(y))
         for left in range(self.reweightings, -1, -1):
             settled = weights * own
@@ -395,7 +396,3 @@ class LSSVMRegressor(RegressorMixin, BaseEstimator):
             t_dof=np.full(x.shape[1] + 1, max(y.size - self.effective_dof_, 1.0)),
             confidence=0.95,
         )
-
-
-def _same_input(x: np.ndarray) -> np.ndarray:
-    return np.unique(x, axis=0, return_inverse=True)[1].reshape(-1)

@@ -390,6 +390,7 @@ class Campaign:
         return replace(fit, derivatives=derivatives)
 
     def _comparisons(self, fits: Sequence[HullFit], progress: Progress | None) -> dict[str, Any]:
+        from .beside_least_squares import beside_least_squares
         from .model_comparison import compare_models, range_sensitivity
         from .three_ways import three_ways
 
@@ -398,6 +399,8 @@ class Campaign:
             if progress:
                 progress("comparing", number, len(fits))
             tables[f"three ways|{fit.label}"] = three_ways(fit)
+            if self.file.fit.estimator not in ("wls", "ols"):
+                tables[f"estimators|{fit.label}"] = beside_least_squares(fit)
             names = self.file.fit.candidates
             if names:
                 candidates = {name: candidate_terms(name) for name in names}

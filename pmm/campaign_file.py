@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
-import tomllib
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from ..core.conventions import Conventions, preset
 from ..core.errors import CampaignError, TowtankError
@@ -16,6 +14,7 @@ from ..core.motion import origin_position
 from ..core.ship import Ship
 from ..core.terms import Term, parse_terms
 from ..formats.channels import Channel, ChannelMap
+from ..formats.checked_toml import read_toml, validated_sections
 from .audit_rules import require_rules
 
 
@@ -117,7 +116,7 @@ class Fit(_Section):
     model: str | None = None
     terms: list[str] | None = None
     domain: Literal["harmonic", "time"] = "harmonic"
-    estimator: Literal["wls", "ols", "huber", "ridge", "tsvd", "constrained"] = "wls"
+    estimator: Literal["wls", "ols", "huber", "ridge", "tsvd", "lssvm", "constrained"] = "wls"
     covariance: Literal["model", "cluster", "bootstrap"] = "model"
     staged: bool = False
     group_by: tuple[Literal["depth", "speed", "heel"], ...] = ("depth",)
@@ -227,6 +226,22 @@ class Output(_Section):
         return value
 
 
+class Simulate(_Section):
+    """``[simulate]``: manoeuvres that the fitted set is sailed through.
+
+    ``manoeuvres`` are names such as ``turning 35`` or ``zigzag 20/20``; empty for those of the IMO standards.
+    ``environment`` is a TOML file beside the campaign.
+    """
+
+    ship_from: str | None = None
+    manoeuvres: list[str] = Field(default_factory=list)
+    speed: float | None = Field(default=None, gt=0)
+    environment: str | None = None
+    draws: int = Field(default=200, ge=0)
+    percent: float | None = Field(default=None, gt=0)
+    seed: int = Field(default=0, ge=0)
+
+
 class CampaignFile(_Section):
     """A whole campaign file."""
 
@@ -240,7 +255,7 @@ class CampaignFile(_Section):
     runs: list[RunGroup] = Field(default_factory=list)
     points: Points | None = None
     fit: Fit = Field(default_factory=Fit)
-    simulate: dict[str, Any] = Field(default_factory=dict)
+    simulate: Simulate | None = None
     output: Output = Field(default_factory=Output)
     accept: list[str] = Field(default_factory=list)
 
@@ -290,6 +305,7 @@ _SECTIONS: dict[str, type[BaseModel]] = {
     "fit": Fit,
     "shared_bias": SharedBias,
     "equalities": Equality,
+    "simulate": Simulate,
     "output": Output,
 }
 
@@ -303,30 +319,12 @@ def load_campaign_file(path: str | Path) -> CampaignFile:
         When the file is missing, is not TOML, or a key is wrong; the message names the key.
     """
     path = Path(path)
-    try:
-        text = path.read_bytes().decode("utf-8")
-        data = tomllib.loads(text)
-    except FileNotFoundError:
-        raise CampaignError("file not found", cure="give the path of a campaign.toml", file=path) from None
-    except IsADirectoryError:
-        raise CampaignError("this is a folder", cure="give the campaign.toml inside it", file=path) from None
-    except UnicodeDecodeError:
-        raise CampaignError("not a text file", cure="a campaign file is TOML in utf-8", file=path) from None
-    except OSError as error:
-        raise CampaignError(
-            f"not readable ({error.strerror})", cure="check the path and its permissions", file=path
-        ) from None
-    except tomllib.TOMLDecodeError as error:
-        raise CampaignError(f"not valid TOML: {error}", cure="mend the syntax there", file=path) from None
-    return validated(data, path)
+    return validated(read_toml(path, CampaignError, what="campaign.toml"), path)
 
 
 def validated(data: dict[str, Any], path: Path) -> CampaignFile:
     """Campaign from a mapping, with errors that name the key."""
-    try:
-        campaign = CampaignFile.model_validate(data)
-    except ValidationError as error:
-        raise _of_the_user(error, path) from None
+    campaign = validated_sections(CampaignFile, data, path, CampaignError, _SECTIONS)
     for place, make in (("[ship]", campaign.make_ship), ("[conventions]", campaign.make_conventions)):
         try:
             make()
@@ -359,27 +357,3 @@ def _at_origin(campaign: CampaignFile) -> CampaignFile:
     named = campaign.reduction.model_fields_set
     points = {key: place for key in ("moment_x", "position_x") if place and key not in named}
     return campaign.model_copy(update={"reduction": campaign.reduction.model_copy(update=points)})
-
-
-def _of_the_user(error: ValidationError, path: Path) -> CampaignError:
-    """The first fault that the validation found, in the user's words."""
-    first = error.errors()[0]
-    keys = [str(part) for part in first["loc"]]
-    # A validator of ours may bring the cure along.
-    cause, _, cure = first["msg"].removeprefix("Value error, ").partition(" -> ")
-    if first["type"] == "extra_forbidden":
-        section = next((_SECTIONS[key] for key in reversed(keys[:-1]) if key in _SECTIONS), CampaignFile)
-        close = difflib.get_close_matches(keys[-1], section.model_fields, n=3, cutoff=0.6)
-        cause = "unknown key"
-        cure = f"closest: {', '.join(close)}" if close else f"keys here are {', '.join(section.model_fields)}"
-    elif first["type"] == "missing":
-        cause, cure = "the key is missing", "add it"
-    elif first["type"] != "value_error":
-        cause = f"{cause[:1].lower()}{cause[1:]}, not {first['input']!r}"
-    more = f" (and {error.error_count() - 1} more)" if error.error_count() > 1 else ""
-    return CampaignError(
-        f"{cause}{more}",
-        cure=cure or "correct it in the campaign file",
-        file=path,
-        place=f"key '{'.'.join(keys)}'" if keys else "",
-    )

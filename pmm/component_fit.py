@@ -118,7 +118,7 @@ def fit_component(
     )
 
 
-_MENDS_DEPENDENCE = ("ridge", "tsvd", "constrained")
+_MENDS_DEPENDENCE = ("ridge", "tsvd", "lssvm", "constrained")
 """Estimators that choose among the solutions of data which cannot separate all terms."""
 
 
@@ -134,7 +134,9 @@ def _least_squares(rows: ForceRows, settings: Fit, weights: np.ndarray) -> Linea
             allow_singular=settings.estimator in _MENDS_DEPENDENCE,
         )
     except FitError as error:
-        cure = error.cure.replace("allow_singular=True", "set fit.estimator = 'ridge', 'tsvd' or 'constrained'")
+        cure = error.cure.replace(
+            "allow_singular=True", "set fit.estimator = 'ridge', 'tsvd', 'lssvm' or 'constrained'"
+        )
         raise FitError(error.cause, cure=cure) from None
 
 
@@ -225,6 +227,8 @@ def _estimate(
         notes.append(f"Huber loss, c = {settings.huber_c:g} standard deviations")
     elif settings.estimator in ("ridge", "tsvd"):
         params, cov, influence = _shrunk(rows, settings, weights, notes)
+    elif settings.estimator == "lssvm":
+        params, cov, influence = _support_vectors(rows, weights, notes)
     elif settings.estimator == "constrained":
         params, cov, influence, extra = _constrained(rows, settings, weights, float(fit.scale), prior, notes)
     if settings.covariance == "bootstrap":
@@ -271,6 +275,25 @@ def _shrunk(
         inverse = np.where(np.arange(len(d)) < result.kept, 1.0 / d, 0.0)
     influence = ((vt.T * inverse) @ u.T) / size[:, None] * root
     return np.asarray(result.params), np.asarray(result.cov), influence
+
+
+def _support_vectors(
+    rows: ForceRows, weights: np.ndarray, notes: list[str]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    from ..identify.lssvm_linear import fit_lssvm
+
+    constant = [term.name for term in rows.terms if not term.factors]
+    means = rows.harmonic == 0
+    # A constant force shows in means alone; the model's own constant takes the place of the bias.
+    bias = False if constant or not means.any() else means.astype(float)
+    result = fit_lssvm(
+        rows.design, rows.response, rows.names, bias=bias, free=constant, weights=weights, groups=rows.run
+    )
+    notes.append(f"LS-SVM with linear kernel, gamma {result.gamma:.3g} by leaving out runs")
+    if not isinstance(bias, bool):
+        notes.append(f"bias {result.bias:.3g}, standard deviation {result.bias_std:.2g}, of the means")
+    notes.append("intervals do not hold the bias of shrinking")
+    return np.asarray(result.params), np.asarray(result.cov), np.asarray(result.influence)
 
 
 def staged_influence(rows: ForceRows, weights: np.ndarray, stages: Sequence[Sequence[str]]) -> np.ndarray:

@@ -131,6 +131,32 @@ def validity_table(derivatives: DerivativeSet) -> Table:
     return make_table(columns, rows)
 
 
+def estimators_table(estimates: pd.DataFrame, derivatives: DerivativeSet) -> Table:
+    """Estimates of the chosen estimator beside those of least squares."""
+    columns = [
+        Column("derivative"),
+        Column("fit", "number"),
+        Column("std", "number"),
+        Column("least squares", "number"),
+        Column("std", "number"),
+        Column("Δ / std", "number", "difference in standard errors of least squares"),
+    ]
+    terms = {term.name: term for term in derivatives.terms}
+    rows = []
+    for row in estimates.to_dict("records"):
+        places = digits_for(row["fit"], row["fit_std"])
+        rows.append(
+            (
+                derivative_name(terms[row["name"]]),
+                fixed(row["fit"], places),
+                fixed(row["fit_std"], places),
+                *_value_and_std(row["least_squares"], row["least_squares_std"], places),
+                _change(row["difference_in_std"]),
+            )
+        )
+    return make_table(columns, rows)
+
+
 def three_ways_table(ways: pd.DataFrame, derivatives: DerivativeSet) -> Table:
     """Fit, single-run and multiple-run estimates side by side."""
     columns = [

@@ -22,6 +22,7 @@ from .derivative_tables import (
     candidates_table,
     conventions_table,
     derivative_table,
+    estimators_table,
     range_table,
     three_ways_table,
     units_text,
@@ -73,6 +74,7 @@ class GroupPage:
     harmonics: Table
     ways: Table | None
     left_out: tuple[str, ...]
+    estimators: Table | None
     candidates: Table | None
     ranges: Table | None
     diagnostics: Table
@@ -218,6 +220,7 @@ def _group(
     ways = result.comparison("three ways", fit.label)
     candidates = result.comparison("candidates", fit.label)
     ranges = result.comparison("range", fit.label)
+    estimates = result.comparison("estimators", fit.label)
     left_out: list[str] = []
     if ways is not None:
         left_out = [*ways.attrs.get("single_run_left_out", []), *ways.attrs.get("multiple_run_left_out", [])]
@@ -228,6 +231,7 @@ def _group(
         units=units_text(written),
         ways=None if ways is None else three_ways_table(ways, fit.derivatives),
         left_out=tuple(left_out),
+        estimators=None if estimates is None else estimators_table(estimates, fit.derivatives),
         candidates=None if candidates is None else candidates_table(candidates),
         ranges=None if ranges is None else range_table(ranges, fit.derivatives),
         remarks=tuple(remarks(fit)),
@@ -243,7 +247,7 @@ def _present(page: dict[str, Any]) -> dict[str, str]:
         "series": not any(group.drawn.series for group in groups),
         "harmonics": not any(group.harmonics.rows for group in groups),
         "ways": not any(group.ways for group in groups),
-        "models": not any(group.candidates or group.ranges for group in groups),
+        "models": not any(group.candidates or group.ranges or group.estimators for group in groups),
     }
     return {anchor: title for anchor, title in SECTIONS.items() if not empty.get(anchor, False)}
 

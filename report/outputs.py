@@ -2,36 +2,33 @@
 
 from __future__ import annotations
 
-import json
-import os
 import re
-import secrets
-import shutil
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from datetime import UTC, datetime
+from datetime import datetime
 from functools import partial
 from importlib import import_module
 from pathlib import Path
 from threading import Thread
 from typing import TYPE_CHECKING, Any
 
-from ..core.errors import TowtankError
 from ..core.provenance import program_versions
 from ..pmm.campaign_result import CampaignResult
+from .result_folder import Progress, Writer, csv_writer, require_folder, timestamp, write_folder, write_json
 from .set_table import SETS_FORMAT
 
 if TYPE_CHECKING:
     import pandas as pd
 
-Progress = Callable[[str, int, int], None]
-
-PROVENANCE, PROVENANCE_FORMAT = "provenance.json", "towtank provenance 1"
+PROVENANCE_FORMAT = "towtank provenance 1"
 
 MANY_RUNS = 200
 """Runs from which on it pays to load libraries while they are read."""
 
-COMPARISONS = {"three ways": "three-ways.csv", "candidates": "candidates.csv", "range": "range.csv"}
+COMPARISONS = {
+    "three ways": "three-ways.csv",
+    "estimators": "estimators.csv",
+    "candidates": "candidates.csv",
+    "range": "range.csv",
+}
 """Kind of comparison and the file that its tables go to."""
 
 
@@ -43,7 +40,8 @@ def write_results(
     Files are ``derivatives.csv`` (name, value, std, lower95, upper95, scaling; with several groups also group),
     ``derivatives.json`` (the set; with several groups all of them by label, and ``derivatives-<group>.json`` for
     each), ``harmonics.csv``, ``runs.csv``, ``findings.csv``, the comparisons that were made (``three-ways.csv``,
-    ``candidates.csv``, ``range.csv``), ``report.html`` and ``provenance.json``. Numbers have all their digits.
+    ``estimators.csv``, ``candidates.csv``, ``range.csv``), ``report.html`` and ``provenance.json``. Numbers have all
+    their digits.
 
     Everything is made in a folder beside `out` first. A new folder then appears at once; in an existing one file
     after file is replaced, and files that its provenance.json lists and this result does not have are removed.
@@ -70,27 +68,9 @@ def write_results(
         When `out` is a file or cannot be written to.
     """
     out = Path(out)
-    if out.exists() and not out.is_dir():
-        raise TowtankError("this is a file", cure="give a folder for the results", file=out)
+    require_folder(out, PROVENANCE_FORMAT)
     wanted = result.settings.output.report if report is None else report
-    writers = _writers(result, wanted, progress)
-    with _beside(out) as folder:
-        names: list[str] = []
-        for number, (name, write) in enumerate(writers):
-            if progress:
-                progress("writing", number, len(writers))
-            write(folder / name)
-            if (folder / name).exists():
-                names.append(name)
-        _json(provenance(result) | {"files": [*names, PROVENANCE]}, folder / PROVENANCE)
-        names.append(PROVENANCE)
-        if progress:
-            progress("writing", len(writers), len(writers))
-        _publish(folder, out, names)
-    return [out / name for name in names]
-
-
-Writer = Callable[[Path], Any]
+    return write_folder(out, _writers(result, wanted, progress), provenance(result), progress)
 
 
 def loading_ahead(progress: Progress) -> Progress:
@@ -128,11 +108,11 @@ def _writers(result: CampaignResult, report: bool, progress: Progress | None) ->
 
         page_writers = [("report.html", write_page)]
     return [
-        ("derivatives.csv", _csv(result.derivatives_frame)),
+        ("derivatives.csv", csv_writer(result.derivatives_frame)),
         *_sets(result),
-        ("harmonics.csv", _csv(result.harmonics_frame)),
-        ("runs.csv", _csv(result.runs_frame)),
-        ("findings.csv", _csv(result.findings_frame)),
+        ("harmonics.csv", csv_writer(result.harmonics_frame)),
+        ("runs.csv", csv_writer(result.runs_frame)),
+        ("findings.csv", csv_writer(result.findings_frame)),
         *((name, partial(_write_comparison, result, kind)) for kind, name in COMPARISONS.items()),
         *page_writers,
     ]
@@ -144,22 +124,13 @@ def _write_comparison(result: CampaignResult, kind: str, path: Path) -> None:
         frame.to_csv(path, index=False)
 
 
-def _csv(frame: Callable[[], pd.DataFrame]) -> Writer:
-    # pandas writes the shortest text that reads back as the same number
-    return lambda path: frame().to_csv(path, index=False)
-
-
-def _json(data: Any, path: Path) -> None:
-    path.write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-
-
 def _sets(result: CampaignResult) -> list[tuple[str, Writer]]:
     sets = result.sets()
     if len(sets) == 1:
         (only,) = sets.values()
         return [("derivatives.json", only.to_json)]
     together = {"format": SETS_FORMAT, "sets": {label: one.to_dict() for label, one in sets.items()}}
-    files: list[tuple[str, Writer]] = [("derivatives.json", lambda path: _json(together, path))]
+    files: list[tuple[str, Writer]] = [("derivatives.json", lambda path: write_json(together, path))]
     names = group_names(list(sets))
     files += [(f"derivatives-{names[label]}.json", one.to_json) for label, one in sets.items()]
     return files
@@ -189,10 +160,9 @@ def comparison_frame(result: CampaignResult, kind: str) -> pd.DataFrame | None:
 
 def provenance(result: CampaignResult, created: datetime | None = None) -> dict[str, Any]:
     """Where the results come from, as plain data: campaign, files, choices, findings, versions."""
-    moment = (created or datetime.now(UTC)).astimezone(UTC)
     return {
         "format": PROVENANCE_FORMAT,
-        "created": moment.isoformat(timespec="seconds"),
+        "created": timestamp(created),
         "campaign": result.campaign.model_dump(),
         "campaign_file": result.path.name,
         "versions": program_versions(),
@@ -203,49 +173,3 @@ def provenance(result: CampaignResult, created: datetime | None = None) -> dict[
             for label, one in result.sets().items()
         ],
     }
-
-
-@contextmanager
-def _beside(out: Path) -> Iterator[Path]:
-    """A temporary folder beside `out`, on the same disk, gone at the end."""
-    folder = out.absolute().with_name(f".{out.absolute().name}.{secrets.token_hex(4)}")
-    try:
-        folder.mkdir(parents=True)
-    except OSError as error:
-        raise TowtankError(
-            f"the folder cannot be written to: {error.strerror}", cure="give another folder", file=out
-        ) from None
-    try:
-        yield folder
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
-
-
-def _publish(folder: Path, out: Path, names: list[str]) -> None:
-    """Move the files of `folder` to `out`."""
-    try:
-        if not out.exists():
-            os.replace(folder, out)
-            return
-        stale = set(_listed(out)) - set(names)
-        for name in names:
-            os.replace(folder / name, out / name)
-        for name in stale:
-            (out / name).unlink(missing_ok=True)
-    except OSError as error:
-        raise TowtankError(
-            f"the results cannot be moved there: {error.strerror}",
-            cure="close files that are open there",
-            file=out,
-        ) from None
-
-
-def _listed(out: Path) -> list[str]:
-    """Files of the result that is in a folder now, as its provenance lists them."""
-    try:
-        data = json.loads((out / PROVENANCE).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return []
-    if not isinstance(data, dict) or data.get("format") != PROVENANCE_FORMAT:
-        return []
-    return [name for name in data.get("files", []) if isinstance(name, str) and Path(name).name == name]

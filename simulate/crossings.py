@@ -31,8 +31,9 @@ def condition(
     if kind == Condition.LATERAL:
         moved = (state[State.Y] - reference[State.Y]) * along - (state[State.X] - reference[State.X]) * across
         return sign * moved - target
-    x_rate = state[State.U] * c - state[State.V] * s + environment[CURRENT_X]
-    y_rate = state[State.U] * s + state[State.V] * c + environment[CURRENT_Y]
+    sway = state[State.V] * math.cos(state[State.PHI])
+    x_rate = state[State.U] * c - sway * s + environment[CURRENT_X]
+    y_rate = state[State.U] * s + sway * c + environment[CURRENT_Y]
     if kind == Condition.ADVANCE_RATE:
         return -sign * (x_rate * along + y_rate * across)
     return -sign * (y_rate * along - x_rate * across)

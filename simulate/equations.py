@@ -39,9 +39,11 @@ def derivative(
     psi, u, v, r = state[State.PSI], state[State.U], state[State.V], state[State.R]
     phi, roll, delta, n = state[State.PHI], state[State.P], state[State.DELTA], state[State.N]
     c, s = math.cos(psi), math.sin(psi)
-    rate[State.X] = u * c - v * s + environment[CURRENT_X]
-    rate[State.Y] = u * s + v * c + environment[CURRENT_Y]
-    rate[State.PSI] = r
+    # sway and yaw of a heeled ship are in its own plane
+    upright = math.cos(phi) if shape[Shape.ROLL] == 1 else 1.0
+    rate[State.X] = u * c - upright * v * s + environment[CURRENT_X]
+    rate[State.Y] = u * s + upright * v * c + environment[CURRENT_Y]
+    rate[State.PSI] = upright * r
     rate[State.PHI] = roll
 
     speed = math.sqrt(u * u + v * v)

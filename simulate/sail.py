@@ -52,6 +52,11 @@ _STATUS = {
 }
 
 
+def status_in_words(status: int) -> str:
+    """How a draw ended: ``completed``, or why not."""
+    return "completed" if status == Status.COMPLETED else _STATUS[status][0]
+
+
 @dataclass(frozen=True, eq=False)
 class SailedDraws:
     """Events of many draws and how each ended.

@@ -105,7 +105,7 @@ def read_trajectory(
     steps, data = [], {}
     for name, (column, unit) in found.items():
         sign = (signs or {}).get(name, 1)
-        data[name] = sign * _factor(name, unit, column, path) * np.asarray(table.columns[column], dtype=float)
+        data[name] = sign * _in_si(table, name, column, unit, path)
         steps.append(f"{name} from '{column}' in {unit}" + (", sign turned" if sign < 0 else ""))
     if np.abs(np.diff(data["psi"])).max(initial=0.0) > math.pi:
         data["psi"] = np.unwrap(data["psi"])
@@ -132,6 +132,23 @@ def read_trajectory(
     if not accept:
         audit_channels(trajectory, path)
     return trajectory
+
+
+def read_channels(table: RawTable, path: str | Path) -> dict[str, FloatArray]:
+    """The channels of a trajectory that a table has, in SI and radians, each of shape (n,).
+
+    Raises
+    ------
+    ReadError
+        For a heading without a unit, or a unit of another dimension.
+    """
+    return {
+        name: _in_si(table, name, column, unit, path) for name, (column, unit) in _assign(table, {}, path).items()
+    }
+
+
+def _in_si(table: RawTable, name: str, column: str, unit: str, path: str | Path) -> FloatArray:
+    return _factor(name, unit, column, path) * np.asarray(table.columns[column], dtype=float)
 
 
 def _assign(table: RawTable, given: Mapping[str, str], path: str | Path) -> dict[str, tuple[str, str]]:

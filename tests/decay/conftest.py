@@ -3,7 +3,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from towtank.decay.decay_record import DecayRecord, decay_from_table
+from towtank.decay.decay_input import decay_from_table
+from towtank.decay.decay_record import DecayRecord
 from towtank.decay.equation import simulate_decay
 
 

@@ -116,12 +116,20 @@ def test_known_terms_can_be_held(record):
     assert fit.params == pytest.approx([SHIP["b1"], SHIP["c1"]], rel=1e-5)
 
 
-def test_searches_that_disagree_are_told(record):
+def test_one_search_alone_is_not_trusted(record, monkeypatch):
+    monkeypatch.setattr("towtank.decay.at_sea._CAUTION", (1e-3,))
     time, angle = record
     noisy = angle + math.radians(0.02) * np.random.default_rng(3).standard_normal(angle.size)
-    fit = fit_roll_at_sea(time, noisy, guess={**SHIP, "b1": 0.15, "c1": 11.0}, terms=("b1", "c1"), level=0.0)
+    fit = fit_roll_at_sea(time, noisy, guess=GUESS, level=0.0)
     assert "several-minima" in [finding.rule for finding in fit.findings]
-    assert fit["c1"] == pytest.approx(SHIP["c1"], rel=0.01)
+
+
+def test_a_bad_guess_does_not_end_in_silence(record):
+    time, angle = record
+    noisy = angle + math.radians(0.02) * np.random.default_rng(3).standard_normal(angle.size)
+    fit = fit_roll_at_sea(time, noisy, guess={**SHIP, "b1": 0.5, "c1": 14.0}, terms=("b1", "c1"), level=0.0)
+    astray = abs(fit["c1"] / SHIP["c1"] - 1.0) > 0.01
+    assert not astray or {"no-convergence", "several-minima"} & {finding.rule for finding in fit.findings}
 
 
 def test_bad_requests_are_refused(record):

@@ -3,7 +3,7 @@ import pytest
 
 from towtank.core.errors import AuditError, ReadError
 from towtank.decay.decay_audit import audit_decay, repaired_time
-from towtank.decay.decay_record import decay_from_table
+from towtank.decay.decay_input import decay_from_table
 
 TIME = np.arange(0.0, 40.0, 0.1)
 ANGLE = 0.3 * np.exp(-0.02 * TIME) * np.cos(0.6 * TIME)

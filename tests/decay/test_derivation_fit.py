@@ -6,7 +6,7 @@ import pytest
 
 from towtank.core.errors import FitError
 from towtank.decay.damping_models import damping_model
-from towtank.decay.decay_record import decay_from_table, read_decay
+from towtank.decay.decay_input import decay_from_table, read_decay
 from towtank.decay.derivation_fit import derive, fit_derivation
 from towtank.decay.equation import simulate_decay
 from towtank.decay.equivalent_damping import equivalent_linear

@@ -5,7 +5,7 @@ import pytest
 
 from towtank.core.errors import FitError
 from towtank.decay.damping_models import DampingModel, damping_model
-from towtank.decay.decay_record import decay_from_table, read_decay
+from towtank.decay.decay_input import decay_from_table, read_decay
 from towtank.decay.equation import simulate_decay
 from towtank.decay.equivalent_damping import equivalent_linear
 from towtank.decay.integration_fit import fit_integration
@@ -120,6 +120,21 @@ def test_lever_curve_restores(literature):
     assert omega[1] < omega[0] < 0.6
 
 
+def test_heave_is_fitted_in_metres():
+    time = np.arange(0.0, 12.0, 0.02)
+    heave = simulate_decay(time, (0.05, 0.0), np.array([0.8, 4.0, 0.0, 30.0, 0.0, 0.0]))[:, 0]
+    record = decay_from_table(
+        {"time": time, "z": 1000.0 * heave}, angle="z", unit="mm", motion="heave", scale=16.0
+    )
+    result = fit_integration(record.free_part())
+    np.testing.assert_allclose(result.values, [0.8, 4.0, 30.0], rtol=1e-5)
+    assert result.units["b2"] == "1/m"
+    full = result.at_scale(1.0)
+    np.testing.assert_allclose(full.values, [0.2, 0.25, 30.0 / 16.0], rtol=1e-5)
+    with pytest.raises(FitError, match="belongs to roll"):
+        result.dimensional(0.05)
+
+
 def test_known_restoring_is_kept(make_decay):
     record = make_decay((0.04, 0.25, 0.0, 0.36, 0.0, 0.0), noise=0.1)
     result = fit_integration(record, damping_model(fixed={"c1": 0.36}))
@@ -128,13 +143,13 @@ def test_known_restoring_is_kept(make_decay):
     assert result.bse[result.position("b1")] > 0.0
 
 
-@pytest.mark.parametrize("c1", [0.05, 0.5, 1.0, 4.0])
+@pytest.mark.parametrize("c1", [0.05, 0.5, 4.0])
 @pytest.mark.parametrize(("b1", "b2"), [(0.1, 0.1), (0.0, 0.0)])
 def test_no_cold_start_returns_nonsense_silently(make_decay, literature, c1, b1, b2):
     start = {"b1": b1, "b2": b2, "b3": 0.0, "c1": c1}
     model = damping_model("linear+quadratic+cubic")
     try:
-        result = fit_integration(make_decay(literature, step=0.4), model, start_values=start)
+        result = fit_integration(make_decay(literature, step=0.4, duration=40.0), model, start_values=start)
     except FitError:
         return
     if result.trusted:

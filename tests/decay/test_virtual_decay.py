@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from towtank.core.errors import FitError
-from towtank.decay.decay_record import read_decay
+from towtank.decay.decay_input import read_decay
 from towtank.decay.equation import simulate_decay
 from towtank.decay.fluid_memory import simulate_memory_decay
 from towtank.decay.transfer_function import TransferFunction

@@ -73,7 +73,7 @@ def test_data_files_are_packaged():
         forgotten += [
             path.relative_to(ROOT).as_posix()
             for path in package.rglob("*")
-            if path.is_file() and path.suffix not in (".py", ".pyc") and path not in packaged
+            if path.is_file() and path.suffix != ".py" and "__pycache__" not in path.parts and path not in packaged
         ]
     assert forgotten == []
 

@@ -45,7 +45,7 @@ def dependent() -> ForceRows:
     return rows_of(["Yv", "Yv|v|"], v, 0 * v, -0.4 * v + NOISE * np.random.default_rng(3).standard_normal(12))
 
 
-ESTIMATORS = ["wls", "ols", "huber", "ridge", "tsvd", "constrained"]
+ESTIMATORS = ["wls", "ols", "huber", "ridge", "tsvd", "lssvm", "constrained"]
 
 
 @pytest.mark.parametrize("estimator", ESTIMATORS)
@@ -106,7 +106,7 @@ def test_huber_resists_outliers_that_bend_least_squares(rows):
     assert np.abs(huber.influence[:, [1, 33]]).max() < 0.3 * np.abs(plain.influence[:, [1, 33]]).max()
 
 
-@pytest.mark.parametrize("estimator", ["ridge", "tsvd"])
+@pytest.mark.parametrize("estimator", ["ridge", "tsvd", "lssvm"])
 def test_shrinking_estimators_fit_terms_that_the_data_cannot_separate(estimator):
     rows = dependent()
     fit = fit_component(rows, Fit(estimator=estimator))
