@@ -158,7 +158,8 @@ def assess_influences(
     clean = [
         replace(one, value=run.fitted, rate=None, acceleration=None, whole=None) for one, run in zip(records, runs)
     ]
-    bias = {name: again(clean)[name] - values[name] for name in model.free}
+    without_noise = again(clean)
+    bias = {name: without_noise[name] - values[name] for name in model.free}
     return assess(
         method,
         records,

@@ -10,11 +10,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
-from threadpoolctl import threadpool_limits
+from threadpoolctl import ThreadpoolController
 
 from ..core.errors import FitError
 from .lssvm_choice import Criterion, LSSVMChoice, checked_gammas, choose_gamma_sigma
@@ -157,6 +157,12 @@ class LSSVMCurve:
         return middle - half, middle + half
 
 
+@cache
+def _libraries() -> ThreadpoolController:
+    """The loaded algebra libraries; to look for them takes longer than a short fit."""
+    return ThreadpoolController()
+
+
 def fit_lssvm_curve(
     time: Any,
     response: Any,
@@ -235,7 +241,7 @@ def fit_lssvm_curve(
     own = np.ones(count)
     settled: np.ndarray | None = given
     # The systems are many and small: on a busy machine the threads of the algebra library would wait for each other.
-    with threadpool_limits(1, user_api="blas"):
+    with _libraries().limit(limits=1, user_api="blas"):
         for left in range(reweightings, -1, -1):
             choice = choose(settled) if gamma_grid.size * sigma_grid.size != 1 else None
             best_gamma = float(gamma_grid[0]) if choice is None else choice.gamma
