@@ -54,16 +54,15 @@ def test_bias_by_noise_is_told_and_instruments_take_it_away(make_decay):
 @pytest.mark.slow
 @pytest.mark.parametrize("noise", [0.05, 0.5])
 def test_intervals_of_the_equivalent_damping_cover(make_decay, noise):
+    """300 records: the 95 % intervals hold the truth in 92 to 97 %."""
     coefficients = (0.04, 0.25, 0.0, 0.36, 0.0, 0.0)
     amplitude = np.array([0.1, 0.2, 0.3])
     true = equivalent_linear(np.array(coefficients), amplitude)[0]
     hits = []
-    for seed in range(60):
+    for seed in range(300):
         at = fit_derivation(make_decay(coefficients, noise=noise, seed=seed)).equivalent(amplitude)
         hits.append((at.alpha_lower <= true) & (true <= at.alpha_upper))
-    covered = np.mean(hits, axis=0)
-    assert (covered >= 0.86).all()
-    assert covered.mean() < 0.999
+    assert 0.92 <= np.mean(hits) <= 0.97
 
 
 def test_a_rising_spring_is_refused(make_decay, literature):

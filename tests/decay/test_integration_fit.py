@@ -61,10 +61,8 @@ def _covered(make_decay, record_count: int, noise: float, correlation: float) ->
 @pytest.mark.slow
 @pytest.mark.parametrize("noise", [0.05, 0.5])
 def test_intervals_of_the_equivalent_damping_cover(make_decay, noise):
-    # 60 records: 95 % within three standard errors of a proportion.
-    covered = _covered(make_decay, 60, noise, 0.9)
-    assert (covered >= 0.86).all()
-    assert covered.mean() < 0.995
+    """300 records: the 95 % intervals hold the truth in 92 to 97 %."""
+    assert 0.92 <= _covered(make_decay, 300, noise, 0.9).mean() <= 0.97
 
 
 def test_correlated_noise_widens_the_intervals(make_decay):

@@ -13,7 +13,7 @@ FLOORS = [
     ("core",),
     ("datasets",),
     ("identify", "verify", "formats"),
-    ("pmm", "decay"),
+    ("pmm", "decay", "squat"),
     ("simulate",),
     ("report", "reproduce"),
     ("cli",),

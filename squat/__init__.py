@@ -1,0 +1,1 @@
+"""Squat: from sinkage and trim records to squat curves, scores of predictions, and empirical formulas."""
