@@ -345,6 +345,7 @@ _ELSEWHERE = {
     "sway_variable": "fit terms of v or of the drift angle",
     "rigid_body_inertia": "give inertia.inside",
     "added_mass_coriolis": "leave it out: a balance feels them, and output.scaling converts the result",
+    "scale": "give ship.scale: 1 for full scale, 46.6 for a model 1:46.6",
     "wave_heading": "leave it out: captive tests in calm water have none",
 }
 """Conventions of derivative sets that measured data do not have, and the key that is meant."""
