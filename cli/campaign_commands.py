@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from .progress import progress_bar
+
+if TYPE_CHECKING:
+    from ..core.findings import Finding
 
 AcceptRules = Annotated[
     list[str] | None,
@@ -45,19 +49,24 @@ def run(
     with progress_bar(not quiet) as bar:
         progress = loading_ahead(bar) if report else bar
         loaded = Campaign.load(campaign)
+        if loaded.file.simulate is not None:
+            from ..report.campaign_manoeuvres import check_simulate
+
+            check_simulate(loaded.file.simulate, loaded.path)
         result = loaded.run(accept_rules=accept or (), progress=progress, workers=workers, compare=report)
         written = write_results(result, out, report=report and result.settings.output.report, progress=progress)
     if quiet:
         return
     typer.echo(result.summary())
-    _print_findings(result.findings)
+    print_findings(result.findings)
     typer.echo(f"\n{len(result.runs)} runs -> {out}{'/'}: {', '.join(path.name for path in written)}")
 
 
-def _print_findings(findings: object) -> None:
+def print_findings(findings: Iterable[Finding]) -> None:
+    """Print errors and warnings, those of one rule in one line."""
     from ..core.findings import findings_frame
 
-    frame = findings_frame(findings)  # type: ignore[arg-type]
+    frame = findings_frame(findings)
     frame = frame[frame["severity"] != "info"]
     if frame.empty:
         return

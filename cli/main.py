@@ -8,7 +8,15 @@ from typing import Annotated, Any
 import typer
 
 from ..core.errors import TowtankError
-from . import campaign_commands, planning_commands, reproduce_command, set_commands
+from . import (
+    campaign_commands,
+    decay_command,
+    planning_commands,
+    reproduce_command,
+    set_commands,
+    simulate_command,
+    validate_command,
+)
 from .demo_command import demo
 
 app = typer.Typer(
@@ -42,8 +50,11 @@ def _options(
 
 app.command("demo")(demo)
 campaign_commands.register(app)
+decay_command.register(app)
 set_commands.register(app)
 planning_commands.register(app)
+simulate_command.register(app)
+validate_command.register(app)
 reproduce_command.register(app)
 
 

@@ -169,7 +169,7 @@ def simulate(
         return
     _print(results, json)
     if written and not json:
-        typer.echo(f"\n-> {out}/: {', '.join(path.name for path in written)}")
+        typer.echo(f"\n{written_text(written)}")
 
 
 def _programmes(names: list[str], others: list[Programme], tick: float) -> list[Programme]:
@@ -189,6 +189,16 @@ def _course_keeping(course: float, gains: str, duration: float, tick: float) -> 
             f"the gains '{gains}' are not three numbers", cure="give P,D,I, e.g. --gains 1,1,0"
         ) from None
     return course_keeping(duration * tick, gain, yaw_gain * tick, integral / tick, course)
+
+
+def written_text(written: list[Path]) -> str:
+    """The files of a folder in one line, tracks and figures counted."""
+    counted = {"trajectory_": "track", "figure_": "figure"}
+    names = [path.name for path in written if not path.name.startswith(tuple(counted))]
+    for beginning, what in counted.items():
+        count = sum(path.name.startswith(beginning) for path in written)
+        names += [f"{count} {what}{'s' if count > 1 else ''} ({beginning}*)"] if count else []
+    return f"-> {written[0].parent}/: {', '.join(names)}"
 
 
 def _print_ships() -> None:

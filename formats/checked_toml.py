@@ -86,8 +86,10 @@ def _first_fault(
     error: type[TowtankError],
     sections: Mapping[str, type[BaseModel]],
 ) -> TowtankError:
-    """The first fault that the validation found, in the user's words."""
-    first = fault.errors()[0]
+    """The fault that is to be mended first, in the user's words."""
+    faults = fault.errors()
+    # A misspelt key is told before the key that is missing because of it.
+    first = next((one for one in faults if one["type"] == "extra_forbidden"), faults[0])
     keys = [str(part) for part in first["loc"]]
     # A validator of ours may bring the cure along.
     cause, _, cure = first["msg"].removeprefix("Value error, ").partition(" -> ")

@@ -37,7 +37,7 @@ def aligned_text(frame: pd.DataFrame, columns: Sequence[str], digits: int = 4) -
 
 
 def _cell(value: object, digits: int) -> str:
-    if not isinstance(value, float | int):
+    if not isinstance(value, float):
         return str(value)
     if math.isnan(value):
         return ""

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
 
 from ..core.provenance import program_versions
-from ..core.ship import Ship
 from ..formats.write import atomic_path
 from ..pmm.campaign_result import CampaignResult
 from ..pmm.hull_fit import HullFit
+from .campaign_manoeuvres import SailedSet, sail_campaign
 from .derivative_tables import (
     candidates_table,
     conventions_table,
@@ -28,14 +26,16 @@ from .derivative_tables import (
     units_text,
     validity_table,
 )
+from .manoeuvre_section import manoeuvre_section
 from .page_table import Table
+from .page_template import page_environment
 from .provenance_tables import choices_tables, findings_table, inputs_table, setting_text, versions_text
 from .run_tables import diagnostics_table, harmonics_table, remarks, runs_table
-from .typography import fixed, significant
+from .ship_particulars import particulars
+from .typography import fixed
 
 if TYPE_CHECKING:
     import pandas as pd
-    from jinja2 import Template
 
     from ..core.derivative_set import DerivativeSet
     from .report_figures import Sections
@@ -51,6 +51,7 @@ SECTIONS = {
     "harmonics": "Harmonics",
     "ways": "Three ways",
     "models": "Models and ranges",
+    "manoeuvres": "Manoeuvres",
     "diagnostics": "Diagnostics",
     "runs": "Runs",
     "findings": "Findings",
@@ -88,13 +89,16 @@ class ReportPage:
     Parameters
     ----------
     result : CampaignResult
+    sailed : sequence of SailedSet
+        Manoeuvres of the fitted sets, where the campaign asks for them.
     """
 
-    def __init__(self, result: CampaignResult) -> None:
+    def __init__(self, result: CampaignResult, sailed: Sequence[SailedSet] = ()) -> None:
         # drawing needs matplotlib, which the command line must not load at its start
         from .report_figures import draw_sections
 
         self._result = result
+        self._sailed = sailed
         self._written = [result.written(fit) for fit in result.fits]
         self._drawn = [
             draw_sections(fit, written, f"g{number}")
@@ -113,7 +117,7 @@ class ReportPage:
             groups.append(page)
         if progress:
             progress("drawing", count, count)
-        return _render(self._result, groups, created)
+        return _render(self._result, groups, created, self._sailed)
 
 
 def render_report(
@@ -137,10 +141,12 @@ def render_report(
     str
         A page that needs nothing beside itself: style and drawings are inside.
     """
-    return ReportPage(result).render(created=created, progress=progress)
+    return ReportPage(result, sail_campaign(result, progress)).render(created=created, progress=progress)
 
 
-def _render(result: CampaignResult, groups: list[GroupPage], created: datetime | None) -> str:
+def _render(
+    result: CampaignResult, groups: list[GroupPage], created: datetime | None, sailed: Sequence[SailedSet]
+) -> str:
     moment = (created or datetime.now(UTC)).astimezone(UTC)
     versions = program_versions()
     chosen, defaults = choices_tables(result.settings)
@@ -152,6 +158,10 @@ def _render(result: CampaignResult, groups: list[GroupPage], created: datetime |
         "particulars": particulars([run.ship for run in result.runs]),
         "facts": facts(result),
         "groups": groups,
+        "manoeuvres": [
+            (one, manoeuvre_section(one.results, f"m{number}") if one.results is not None else None)
+            for number, one in enumerate(sailed, start=1)
+        ],
         "runs": runs_table(result),
         "findings": findings_table(result.findings),
         "severities": _severities(result),
@@ -164,10 +174,9 @@ def _render(result: CampaignResult, groups: list[GroupPage], created: datetime |
         "versions": versions_text(versions),
         "citation": citation(result, versions["towtank"], moment),
         "file": result.path.name,
-        "Markup": Markup,
     }
     page["sections"] = _present(page)
-    return _template().render(page)
+    return page_environment().get_template("report.html.j2").render(page)
 
 
 def write_report(
@@ -186,20 +195,6 @@ def write_report(
     with atomic_path(target) as temporary:
         temporary.write_text(text, encoding="utf-8")
     return target
-
-
-@cache
-def _template() -> Template:
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    environment = Environment(
-        loader=FileSystemLoader(HERE),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=StrictUndefined,
-    )
-    return environment.get_template("report.html.j2")
 
 
 def _group(
@@ -247,29 +242,10 @@ def _present(page: dict[str, Any]) -> dict[str, str]:
         "series": not any(group.drawn.series for group in groups),
         "harmonics": not any(group.harmonics.rows for group in groups),
         "ways": not any(group.ways for group in groups),
+        "manoeuvres": not page["manoeuvres"],
         "models": not any(group.candidates or group.ranges or group.estimators for group in groups),
     }
     return {anchor: title for anchor, title in SECTIONS.items() if not empty.get(anchor, False)}
-
-
-def particulars(ships: Sequence[Ship]) -> list[tuple[str, str, str]]:
-    """Particulars of the ship of some runs as (name, value, unit); `ships` differ in water depth alone."""
-    ship = ships[0]
-    scale = "full scale" if ship.scale == 1 else f"1:{ship.scale:g}"
-    rows = [("Ship", ship.name, ""), ("Scale", scale, "")]
-    numbers: list[tuple[str, float | None, str]] = [
-        ("Length L", ship.L, "m"),
-        ("Breadth B", ship.B, "m"),
-        ("Draught T", ship.T, "m"),
-        ("Mass", ship.displacement_mass, "kg"),
-        ("Centre of gravity xG", ship.xG, "m"),
-        ("Yaw inertia Izz", ship.yaw_inertia, "kg m²"),
-        ("Water density ρ", ship.rho, "kg/m³"),
-    ]
-    rows += [(name, significant(value, 4), unit) for name, value, unit in numbers if value is not None]
-    ratios = sorted({ship.depth_ratio for ship in ships})
-    depths = ", ".join("deep" if math.isinf(ratio) else f"{ratio:.3g}" for ratio in ratios)
-    return [*rows, ("Depth over draught h/T", depths, "")]
 
 
 def facts(result: CampaignResult) -> list[tuple[str, str, str]]:

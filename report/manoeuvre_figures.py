@@ -123,8 +123,8 @@ def index_histogram(ensemble: Ensemble, manoeuvre: str, index: str, *, ax: Axes 
     SimulationError
         When no draw has this index.
     """
-    drawn = ensemble.draws_of(manoeuvre, index)
-    drawn = drawn[np.isfinite(drawn)]
+    values = ensemble.draws_of(manoeuvre, index)
+    drawn = values[np.isfinite(values)]
     if not len(drawn):
         raise SimulationError(f"no draw has an {index} of {manoeuvre}", cure="see the failures of the ensemble")
     ax = ax if ax is not None else new_axes()
@@ -146,8 +146,9 @@ def index_histogram(ensemble: Ensemble, manoeuvre: str, index: str, *, ax: Axes 
     if np.isfinite(value):
         ax.axvline(value, color=INK, linewidth=1.0, label="unperturbed")
     if limit is not None:
-        share = float(np.mean(drawn <= limit))
-        text = f"IMO limit {limit:.4g} {unit}, passed by {100.0 * share:.3g} %"
+        # a draw without a value does not pass, as in the table of the criteria
+        share = float(np.sum(drawn <= limit)) / len(values)
+        text = f"IMO limit {limit:.4g} {unit}, passed by {100.0 * share:.4g} %"
         if limit - drawn.max() <= drawn.max() - drawn.min():
             ax.axvline(limit, color=VERMILLION, linewidth=1.2, linestyle="--", label=text)
         else:
@@ -201,7 +202,7 @@ def elasticity_bars(
     bars = table["elasticity"].fillna(table["first_order"])
     order = bars.abs().sort_values(ascending=False).index[:most]
     table, bars = table.loc[order], bars.loc[order]
-    ax = ax if ax is not None else new_axes(margins=(1.25, 0.1, 0.46, 0.12))
+    ax = ax if ax is not None else new_axes(margins=(1.45, 0.1, 0.46, 0.12))
     places = np.arange(len(order))
     ax.barh(places, bars, height=0.7, color=np.where(bars < 0.0, SKY, BLUE).tolist(), linewidth=0.0)
     ax.errorbar(
@@ -212,7 +213,7 @@ def elasticity_bars(
     ax.set_yticks(places, [str(name) for name in table["parameter"]])
     ax.invert_yaxis()
     ax.grid(False, axis="y")
-    ax.set_xlabel(f"elasticity of {index}, {manoeuvre}")
+    ax.set_xlabel(f"per cent of {index} per per cent")
     return ax
 
 

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 from ..core.provenance import program_versions
 from ..pmm.campaign_result import CampaignResult
+from .campaign_manoeuvres import SailedSet, sail_campaign
+from .manoeuvre_outputs import manoeuvre_tables
 from .result_folder import Progress, Writer, csv_writer, require_folder, timestamp, write_folder, write_json
 from .set_table import SETS_FORMAT
 
@@ -40,8 +42,9 @@ def write_results(
     Files are ``derivatives.csv`` (name, value, std, lower95, upper95, scaling; with several groups also group),
     ``derivatives.json`` (the set; with several groups all of them by label, and ``derivatives-<group>.json`` for
     each), ``harmonics.csv``, ``runs.csv``, ``findings.csv``, the comparisons that were made (``three-ways.csv``,
-    ``estimators.csv``, ``candidates.csv``, ``range.csv``), ``report.html`` and ``provenance.json``. Numbers have all
-    their digits.
+    ``estimators.csv``, ``candidates.csv``, ``range.csv``), with ``[simulate]`` ``indices.csv``, ``imo.csv`` and
+    ``trajectory_<manoeuvre>.csv`` (see :func:`~towtank.report.manoeuvre_outputs.write_manoeuvres`), ``report.html`` and
+    ``provenance.json``. Numbers have all their digits.
 
     Everything is made in a folder beside `out` first. A new folder then appears at once; in an existing one file
     after file is replaced, and files that its provenance.json lists and this result does not have are removed.
@@ -70,7 +73,8 @@ def write_results(
     out = Path(out)
     require_folder(out, PROVENANCE_FORMAT)
     wanted = result.settings.output.report if report is None else report
-    return write_folder(out, _writers(result, wanted, progress), provenance(result), progress)
+    sailed = sail_campaign(result, progress)
+    return write_folder(out, _writers(result, sailed, wanted, progress), provenance(result), progress)
 
 
 def loading_ahead(progress: Progress) -> Progress:
@@ -94,14 +98,16 @@ def loading_ahead(progress: Progress) -> Progress:
     return advance
 
 
-def _writers(result: CampaignResult, report: bool, progress: Progress | None) -> list[tuple[str, Writer]]:
+def _writers(
+    result: CampaignResult, sailed: list[SailedSet], report: bool, progress: Progress | None
+) -> list[tuple[str, Writer]]:
     """Names of the files and what writes each; a comparison that was not made writes none."""
     page_writers: list[tuple[str, Writer]] = []
     if report:
         from .html_report import ReportPage
 
         # Its drawings, and the comparisons, may be under way in other processes: they are asked for last.
-        page = ReportPage(result)
+        page = ReportPage(result, sailed)
 
         def write_page(path: Path) -> None:
             path.write_text(page.render(progress=progress), encoding="utf-8")
@@ -114,8 +120,21 @@ def _writers(result: CampaignResult, report: bool, progress: Progress | None) ->
         ("runs.csv", csv_writer(result.runs_frame)),
         ("findings.csv", csv_writer(result.findings_frame)),
         *((name, partial(_write_comparison, result, kind)) for kind, name in COMPARISONS.items()),
+        *_manoeuvres(sailed),
         *page_writers,
     ]
+
+
+def _manoeuvres(sailed: list[SailedSet]) -> list[tuple[str, Writer]]:
+    """Tables and tracks of the sets that were sailed; with several groups each has its own."""
+    known = [one for one in sailed if one.results is not None]
+    names = group_names([one.label for one in sailed])
+    files: list[tuple[str, Writer]] = []
+    for one in known:
+        assert one.results is not None
+        ending = f"-{names[one.label]}" if len(sailed) > 1 else ""
+        files += manoeuvre_tables(one.results, ending)
+    return files
 
 
 def _write_comparison(result: CampaignResult, kind: str, path: Path) -> None:

@@ -12,7 +12,18 @@ from ..pmm.campaign_file import CampaignFile
 from .page_table import Column, Table, make_table
 
 _SEVERITIES = ("error", "warning", "info")
-_SECTIONS = ("reader", "channels", "conventions", "inertia", "reduction", "points", "fit", "output", "accept")
+_SECTIONS = (
+    "reader",
+    "channels",
+    "conventions",
+    "inertia",
+    "reduction",
+    "points",
+    "fit",
+    "simulate",
+    "output",
+    "accept",
+)
 
 
 def findings_table(findings: Iterable[Finding]) -> Table:
@@ -49,25 +60,25 @@ def choices_tables(settings: CampaignFile) -> tuple[Table, Table]:
             everything = settings.make_conventions().to_dict()
             rows += [(f"conventions.{key}", setting_text(x), key in value) for key, x in everything.items()]
         elif value is not None:
-            rows += _settings(section, value, section in settings.model_fields_set)
+            rows += setting_rows(section, value, section in settings.model_fields_set)
     columns = [Column("setting", "code"), Column("value")]
     chosen = make_table(columns, [(key, text) for key, text, was_set in rows if was_set])
     default = make_table(columns, [(key, text) for key, text, was_set in rows if not was_set])
     return chosen, default
 
 
-def _settings(key: str, value: Any, given: bool) -> list[tuple[str, str, bool]]:
+def setting_rows(key: str, value: Any, given: bool) -> list[tuple[str, str, bool]]:
     """Rows (key, value, set in the file) of a setting and everything below it."""
     rows: list[tuple[str, str, bool]] = []
     if isinstance(value, BaseModel):
         for name in type(value).model_fields:
-            rows += _settings(f"{key}.{name}", getattr(value, name), given and name in value.model_fields_set)
+            rows += setting_rows(f"{key}.{name}", getattr(value, name), given and name in value.model_fields_set)
         return rows + [
             (f"{key}.{name}", setting_text(item), given) for name, item in (value.model_extra or {}).items()
         ]
     if isinstance(value, Mapping) and value:
         for name, below in value.items():
-            rows += _settings(f"{key}.{name}", below, given)
+            rows += setting_rows(f"{key}.{name}", below, given)
         return rows
     return [(key, setting_text(value), given)]
 

@@ -13,6 +13,7 @@ from ..core.derivative_set import DerivativeSet
 from ..core.processes import can_fork, in_processes
 from ..pmm.hull_fit import HullFit
 from .derivative_figures import correlation_map, derivative_forest
+from .drawings import Drawing, Row
 from .figure_style import Sheet, inline_svg
 from .force_curves import sweeps
 from .force_figures import MOST_RUNS, amplitude_fit, curve_colour, force_fit
@@ -27,24 +28,6 @@ RUNS_OF_A_KIND = 2
 
 MANY_RUNS = 200
 """Runs from which on the drawings are shared among processes."""
-
-
-@dataclass(frozen=True)
-class Drawing:
-    """One figure of the page: its SVG, and the line below it (empty for none)."""
-
-    svg: str
-    caption: str = ""
-
-
-@dataclass(frozen=True)
-class Row:
-    """Drawings that belong together, e.g. the components of one run, with key (colour, name) and line below."""
-
-    title: str
-    drawings: tuple[Drawing, ...]
-    caption: str = ""
-    key: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True)

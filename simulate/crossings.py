@@ -26,6 +26,8 @@ def condition(
         return -sign * (state[State.R] - target)
     if kind == Condition.SURGE:
         return sign * (state[State.U] - target * reference[State.U])
+    if kind == Condition.ROLL_RATE:
+        return sign * (state[State.P] - target)
     c, s = math.cos(state[State.PSI]), math.sin(state[State.PSI])
     along, across = math.cos(reference[State.PSI]), math.sin(reference[State.PSI])
     if kind == Condition.LATERAL:

@@ -192,6 +192,10 @@ class Ensemble:
             raise SimulationError(f"{manoeuvre} has no index '{index}'", cure=f"it has {known}")
         return self.values[manoeuvre][index]
 
+    def vessel_of(self, draw: int) -> Vessel:
+        """The vessel of one draw."""
+        return vessel_of_draw(self.vessel, self.scatter.names, self.parameters[draw])
+
     def fan(self, manoeuvre: str, tracks: int = 60) -> TrackFan:
         """Tracks of the unperturbed vessel and of some draws, spread evenly over those that completed it.
 
@@ -206,7 +210,7 @@ class Ensemble:
         spread = np.linspace(0, len(completed) - 1, min(tracks, len(completed))).round().astype(int)
         numbers = completed[np.unique(spread)] if len(completed) else completed
         programme = next(p for p in self.programmes if p.name == manoeuvre)
-        vessels = [vessel_of_draw(self.vessel, self.scatter.names, self.parameters[k]) for k in numbers]
+        vessels = [self.vessel_of(int(number)) for number in numbers]
         return sail_fan(self.vessel, programme, vessels, numbers, environment=self.environment)
 
     def _known(self, manoeuvre: str) -> str:

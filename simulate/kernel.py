@@ -159,9 +159,14 @@ def sail_one(
                         other,
                     )
                     if at <= theta:
-                        pending[w, 0] = 0.0
+                        place = int(watch[Watch.EVENT])
                         dense_output(state, after, length, slopes, at, other)
-                        write_event(events, int(watch[Watch.EVENT]), time + at * length, other)
+                        if watch[Watch.CONDITION] != Condition.ROLL_RATE:
+                            pending[w, 0] = 0.0
+                        elif abs(other[State.PHI]) <= abs(events[place, State.PHI + 1]):
+                            # of the extremes of the roll angle the largest is kept
+                            continue
+                        write_event(events, place, time + at * length, other)
             if settings[Setting.INTERVAL] > 0.0:
                 while True:
                     at = (result[3] * settings[Setting.INTERVAL] - time) / length

@@ -20,7 +20,7 @@ KINDS = (
 """Manoeuvres that have indices."""
 
 # The longer names first: an initial turning test is no turning circle.
-_WORDS = (
+WORDS = (
     ("initial turning", r"initial[ _-]*turn\w*"),
     ("reverse spiral", r"reverse[ _-]*spiral"),
     ("spiral", r"(dieudonn\w+[ _-]*)?spiral"),
@@ -30,6 +30,7 @@ _WORDS = (
     ("zigzag", r"zig[ _-]*zag"),
     ("turning", r"turning([ _-]*circle)?|turn"),
 )
+"""Kind of manoeuvre and a pattern of its names in small letters."""
 _NUMBERS = re.compile(r"([+-]?\d+(?:\.\d+)?)(?:\s*/\s*(\d+(?:\.\d+)?))?")
 
 
@@ -60,7 +61,7 @@ def read_manoeuvre_name(name: str) -> NamedManoeuvre:
         When the name has no known kind.
     """
     text = name.strip().lower()
-    for kind, words in _WORDS:
+    for kind, words in WORDS:
         match = re.match(words, text)
         if match:
             numbers = _NUMBERS.search(text[match.end() :])

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.errors import SimulationError
 from .parameters import Condition, Order
-from .programme import End, Phase, Programme
+from .programme import MAXIMUM_HEEL, End, Phase, Programme
 
 STEADY = 1e-4
 """Acceleration, in units of U0**2/L and (U0/L)**2, below which a motion is steady."""
@@ -21,13 +21,15 @@ def turning(rudder: float = 35.0, heading: float = 540.0) -> Programme:
     """Turning circle: rudder to `rudder` degrees until the heading has changed by `heading` degrees.
 
     Events: ``execute``; ``heading 10``, ``20``, ``30``, ``60`` and every 90 up to the end; ``maximum advance``,
-    ``maximum transfer``; ``end``.
+    ``maximum transfer``; ``maximum heel`` (largest roll angle to the outer side, at its extreme) of a ship that rolls;
+    ``end``.
     """
     side = _side(rudder)
     marks = [mark for mark in (10, 20, 30, 60, *range(90, int(heading), 90)) if mark < heading]
     watched = {f"heading {mark}": End(Condition.TURNED, math.radians(mark), side) for mark in marks}
     watched["maximum advance"] = End(Condition.ADVANCE_RATE)
     watched["maximum transfer"] = End(Condition.TRANSFER_RATE, 0.0, side)
+    watched[MAXIMUM_HEEL] = End(Condition.ROLL_RATE, 0.0, side)
     end = End(Condition.TURNED, math.radians(heading), side)
     phase = Phase(target=math.radians(rudder), end=end, execute=True, begins="execute", ends="end")
     return Programme(f"turning {rudder:+g}", (phase,), watched, choices={"rudder [deg]": rudder})
@@ -47,7 +49,8 @@ def zigzag(rudder: float = 10.0, heading: float | None = None, overshoots: int =
 
     Notes
     -----
-    Events: ``execute 1``, ``execute 2``, ``extreme 1`` (yaw rate zero after execute 2), ..., ``end``.
+    Events: ``execute 1``, ``execute 2``, ``extreme 1`` (yaw rate zero after execute 2), ``return 1`` (heading back at
+    the original course, before execute 3), ..., ``end``.
     """
     side = _side(rudder)
     switch = math.radians(abs(rudder) if heading is None else heading)
@@ -59,15 +62,17 @@ def zigzag(rudder: float = 10.0, heading: float | None = None, overshoots: int =
     ]
     for number in range(2, overshoots + 2):
         side = -side
-        extreme = {f"extreme {number - 1}": End(Condition.YAW_RATE, 0.0, -side)}
+        watched = {f"extreme {number - 1}": End(Condition.YAW_RATE, 0.0, -side)}
         last = number == overshoots + 1
+        if not last:
+            watched[f"return {number - 1}"] = End(Condition.TURNED, 0.0, side)
         phases.append(
             Phase(
                 target=side * angle,
                 end=End(Condition.YAW_RATE, 0.0, -side) if last else End(Condition.TURNED, switch, side),
                 begins=f"execute {number}",
                 ends="end" if last else "",
-                watched=extreme,
+                watched=watched,
             )
         )
     name = f"zigzag {rudder:+g}/{math.degrees(switch):g}"
@@ -229,7 +234,7 @@ def williamson(rudder: float = 35.0, first: float = 60.0, short: float = 20.0, g
     Notes
     -----
     Events: ``execute``; ``shift`` (rudder to the other side); ``reciprocal less`` (autopilot takes over);
-    ``end`` (steady on the reciprocal course).
+    ``end`` (heading first within 1 degree of the reciprocal course; the ship has yet to regain her speed).
     """
     side = _side(rudder)
     angle = abs(math.radians(rudder))
@@ -252,7 +257,7 @@ def williamson(rudder: float = 35.0, first: float = 60.0, short: float = 20.0, g
             target=reciprocal,
             gains=(gain, gain, 0.0),
             gains_scaled=True,
-            end=End(Condition.STEADY, 10.0 * STEADY),
+            end=End(Condition.TURNED, math.pi - math.radians(1.0), -side),
             ends="end",
         ),
     )

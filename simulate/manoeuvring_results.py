@@ -66,13 +66,25 @@ class ManoeuvringResults:
         return list(dict.fromkeys(said))
 
     def imo_frame(self) -> pd.DataFrame:
-        """Verdicts of IMO resolution MSC.137(76); see :func:`~towtank.simulate.criteria.imo_criteria`."""
+        """Verdicts of IMO resolution MSC.137(76); see :func:`~towtank.simulate.criteria.imo_criteria`.
+
+        With draws the columns probability (share of the draws that pass), probability_se, margin_p05 and margin_p95
+        are added.
+        """
         found = {}
         for one in self.trajectories:
             if _indexed(one) and one.events is not None:
                 values = event_indices(one.manoeuvre, one.events, one.ship, self.vessel.speed)
                 found[one.manoeuvre] = {name: float(value[0]) for name, value in values.items()}
-        return imo_criteria(found, self.vessel.ship, self.vessel.speed)
+        table = imo_criteria(found, self.vessel.ship, self.vessel.speed)
+        if self.ensemble is None:
+            return table
+        spread = self.ensemble.criteria[["criterion", "probability", "probability_se", "margin_p05", "margin_p95"]]
+        notes = table.attrs.pop("notes")
+        spread.attrs.clear()
+        table = table.merge(spread, on="criterion", how="left")
+        table.attrs["notes"] = notes
+        return table
 
 
 def _indexed(trajectory: Trajectory) -> bool:

@@ -9,7 +9,7 @@ from difflib import get_close_matches
 
 from ..core.errors import SimulationError, TowtankError
 from . import manoeuvres
-from .manoeuvre_names import KINDS, NamedManoeuvre, read_manoeuvre_name
+from .manoeuvre_names import KINDS, WORDS, NamedManoeuvre, read_manoeuvre_name
 from .programme import Programme
 
 IMO_SET = (
@@ -30,8 +30,7 @@ SPIRAL_YAW_RATES = (0.15, 0.1, 0.075, 0.05, 0.025, 0.0, -0.025, -0.05, -0.075, -
 SPIRAL_GAINS = (1.0, 0.5)
 """Gains of the reverse spiral: rudder over yaw rate error in L/U0, and over its integral."""
 
-_SHAPE = re.compile(r"[a-z][a-z _-]*?[ _]*(?P<numbers>[+-]?\d.*)?", re.IGNORECASE)
-_NUMBERS = re.compile(r"(?P<first>[+-]?\d+(\.\d+)?)(\s*/\s*(?P<second>\d+(\.\d+)?))?(\s*deg)?", re.IGNORECASE)
+_NUMBERS = r"[+-]?\d+(\.\d+)?(\s*/\s*\d+(\.\d+)?)?(\s*deg)?"
 
 
 def named_programme(name: str, tick: float) -> Programme:
@@ -68,9 +67,7 @@ def _read(name: str) -> NamedManoeuvre:
         close = get_close_matches(name.strip().lower().rstrip("0123456789/+-. "), KINDS, n=3, cutoff=0.5)
         cure = f"did you mean {', '.join(close)}" if close else error.cure
         raise SimulationError(error.cause, cure=cure) from None
-    shape = _SHAPE.fullmatch(name.strip())
-    numbers = shape["numbers"] if shape else ""
-    if shape is None or (numbers is not None and not _NUMBERS.fullmatch(numbers)):
+    if not re.fullmatch(rf"({dict(WORDS)[found.kind]})[ _]*({_NUMBERS})?", name.strip().lower()):
         raise SimulationError(
             f"'{name}' cannot be read as a {found.kind}", cure=f"write e.g. '{_EXAMPLES[found.kind]}'"
         )

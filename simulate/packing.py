@@ -31,7 +31,7 @@ from .propeller import WAKES, Propeller, ThrustSurface
 from .vessel import Vessel
 
 FloatArray = np.ndarray
-Lookup = Callable[[str, str], float | FloatArray]
+Lookup = Callable[..., float | FloatArray]
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,11 +94,11 @@ def pack(
         )
     values = np.broadcast_to(values, (draws, values.shape[1]))
 
-    def get(part: str, item: str) -> float | FloatArray:
+    def get(part: str, item: str, value: float | None = None) -> float | FloatArray:
         name = f"{part}.{item}"
         if name in changes:
             return np.asarray(changes[name], dtype=float)
-        return getattr(getattr(vessel, part), item)
+        return getattr(getattr(vessel, part), item) if value is None else value
 
     terms, values, conventions = _scaled(vessel.hull, values)
     ship = vessel.ship
@@ -262,7 +262,7 @@ def _pack_propeller(
         return
     D = get("propeller", "D")
     shape[Shape.WAKE] = WAKES.index(propeller.wake)
-    shape[Shape.ASTERN] = propeller.astern_KT is not None
+    shape[Shape.ASTERN] = propeller.thrust_astern > 0.0
     for place, item, unit in (
         (Parameter.DIAMETER, "D", 1.0),
         (Parameter.WP0, "wP0", 1.0),
@@ -276,18 +276,18 @@ def _pack_propeller(
     ):
         parameters[:, place] = np.multiply(get("propeller", item), unit)
     parameters[:, Parameter.THRUST_UNIT] = ship.rho * np.square(D) * propeller.number
-    parameters[:, Parameter.KT_ASTERN] = propeller.astern_KT or 0.0
+    parameters[:, Parameter.KT_ASTERN] = (
+        propeller.thrust_astern if propeller.astern_KT is None else get("propeller", "astern_KT")
+    )
     if propeller.tabulated:
         shape[Shape.THRUST] = Thrust.TABLE
         shape[Shape.TABLE] = sum(map(len, tables))
         shape[Shape.TABLE_ROWS] = len(propeller.KT)
         tables.append(_open_water_rows(propeller))
     else:
-        coefficients = np.zeros(5)
-        coefficients[: len(propeller.KT)] = propeller.KT
-        shape[Shape.THRUST] = Thrust.POLYNOMIAL if np.any(coefficients[3:]) else Thrust.PARABOLA
-        for power in range(5):
-            parameters[:, Parameter.KT0 + power] = coefficients[power]
+        shape[Shape.THRUST] = Thrust.POLYNOMIAL if len(propeller.KT) > 3 else Thrust.PARABOLA
+        for power, (name, value) in enumerate(propeller.coefficients.items()):
+            parameters[:, Parameter.KT0 + power] = get("propeller", name, value)
     for power, coefficient in enumerate(propeller.KQ):
         parameters[:, Parameter.KQ0 + power] = coefficient
     parameters[:, Parameter.TORQUE_UNIT] = ship.rho * np.power(D, 3)

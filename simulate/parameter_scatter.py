@@ -137,7 +137,7 @@ def scatter_of(
         matrix = np.pad(matrix, (0, len(shares)))
         matrix[size:, size:] = np.diag(variances)
         picked += tuple(shares)
-        sources.append(_percentage_words(shares))
+        sources += _percentage_words(shares)
     if not picked:
         raise SimulationError("nothing of the vessel scatters", cure="give a percentage above 0 or names")
     center = np.array([value_of(vessel, name) for name in picked])
@@ -273,7 +273,8 @@ def _percentages(
     return {name: share for name, share in found.items() if share > 0.0}
 
 
-def _percentage_words(shares: Mapping[str, float]) -> str:
-    sizes = sorted(set(shares.values()))
-    each = [f"{size:g} % of {sum(share == size for share in shares.values())} numbers" for size in sizes]
-    return f"independent {', '.join(each)}"
+def _percentage_words(shares: Mapping[str, float]) -> list[str]:
+    return [
+        f"independent {size:g} % of {sum(share == size for share in shares.values())} numbers"
+        for size in sorted(set(shares.values()))
+    ]

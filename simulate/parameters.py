@@ -290,6 +290,7 @@ class _Conditions(NamedTuple):
     TRANSFER_RATE: float = 5.0  # -sign dy/dt
     STEADY: float = 6.0  # value less the largest scaled acceleration, at the end of a step
     LATERAL: float = 7.0  # sign (y - y at execute) - value
+    ROLL_RATE: float = 8.0  # sign (p - value)
 
 
 Condition = _as_module(_Conditions())

@@ -12,6 +12,9 @@ import numpy as np
 from ..core.errors import SimulationError
 from .parameters import PHASE_COLUMNS, WATCH_COLUMNS, Condition, Order
 
+MAXIMUM_HEEL = "maximum heel"
+"""Event of ships that roll alone."""
+
 
 @dataclass(frozen=True)
 class End:

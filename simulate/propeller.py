@@ -11,6 +11,12 @@ from ..core.errors import TowtankError
 
 WAKES = ("constant", "C1C2", "exponential", "sway and yaw")
 
+ASTERN_SHARE = 0.65
+"""Thrust of a reversed propeller over its bollard thrust ahead at the same rate, where nothing is known about it.
+
+Assumed: blade sections of a fixed pitch that run on their trailing edges lose about a third of their thrust.
+"""
+
 
 @dataclass(frozen=True, eq=False)
 class Propeller:
@@ -43,7 +49,8 @@ class Propeller:
         Torque coefficient as a polynomial of J; for engines of constant torque.
     astern_KT : float, optional
         Thrust coefficient at negative rates, as a positive number: ``T = -astern_KT rho n**2 D**4`` beside the drag
-        of the polynomial's quadratic term. None: the propeller cannot be reversed.
+        of the polynomial's quadratic term where that is negative. None: :data:`ASTERN_SHARE` of KT at J = 0 is
+        assumed.
     number : int
         Propellers of the ship, all with the thrust of the centre.
     """
@@ -83,6 +90,20 @@ class Propeller:
     def tabulated(self) -> bool:
         """True when KT is a table."""
         return np.ndim(self.KT) == 2
+
+    @property
+    def coefficients(self) -> dict[str, float]:
+        """Coefficients ``k0``, ``k1``, ... of the polynomial; empty for a table."""
+        return {} if self.tabulated else {f"k{power}": float(value) for power, value in enumerate(self.KT)}
+
+    @property
+    def thrust_astern(self) -> float:
+        """Thrust coefficient at negative rates as a positive number, given or assumed."""
+        if self.astern_KT is not None:
+            return self.astern_KT
+        table = np.asarray(self.KT)
+        bollard = float(np.interp(0.0, table[:, 0], table[:, 1])) if self.tabulated else self.coefficients["k0"]
+        return ASTERN_SHARE * max(bollard, 0.0)
 
     def enlarged(self, k: float) -> Propeller:
         """The propeller of a ship `k` times as long."""

@@ -48,7 +48,8 @@ def propeller_thrust(
         return p[Parameter.PROPELLER_MASS] * (quadratic + p[Parameter.TNN] * length * n * abs(n))
     tip = n * p[Parameter.DIAMETER]
     if n < 0.0:
-        return p[Parameter.THRUST_UNIT] * (p[Parameter.KT2] * flow * flow - p[Parameter.KT_ASTERN] * tip * tip)
+        drag = min(p[Parameter.KT2], 0.0) * flow * flow
+        return p[Parameter.THRUST_UNIT] * (drag - p[Parameter.KT_ASTERN] * tip * tip)
     if model == Thrust.PARABOLA:
         # without division by n: a propeller that stands still has drag
         form = p[Parameter.KT0] * tip * tip + p[Parameter.KT1] * tip * flow + p[Parameter.KT2] * flow * flow

@@ -14,7 +14,7 @@ from ..core.provenance import Provenance
 from .events import Events
 from .packing import pack
 from .parameters import SETTINGS, STATES, Parameter, Setting, Shape, State, Status
-from .programme import Programme
+from .programme import MAXIMUM_HEEL, Programme
 from .vessel import Vessel
 
 if TYPE_CHECKING:
@@ -129,7 +129,7 @@ def sail(
         When the motion diverges or the manoeuvre is not completed, with the time and the state.
     """
     from .trajectory import Trajectory
-    from .validity import left_ranges
+    from .validity import assumed_astern, left_ranges
 
     vessel = vessel if speed is None else vessel.but(speed=speed)
     packed = pack(vessel)
@@ -140,7 +140,7 @@ def sail(
     raw, results, rates = _run(packed, programme, environment, tolerance, patience, track, gap, None)
     frame = track[: results[0, 3]]
     _raise_failure(results[0, 0], vessel, programme, frame)
-    findings = left_ranges(vessel, frame)
+    findings = [*assumed_astern(vessel, programme), *left_ranges(vessel, frame)]
     provenance = Provenance(
         source=vessel.hull.provenance.source,
         choices={
@@ -160,7 +160,7 @@ def sail(
         columns,
         vessel.ship,
         programme.name,
-        events=_events(programme, raw),
+        events=_events(packed, programme, raw),
         source=vessel.name,
         provenance=provenance,
     )
@@ -199,7 +199,7 @@ def sail_events(
     vessel = vessel if speed is None else vessel.but(speed=speed)
     packed = pack(vessel, draws, changes)
     raw, results, found = _run(packed, programme, environment, tolerance, patience, np.zeros((0, 11)), 0.0, rates)
-    return SailedDraws(_events(programme, raw), results[:, 0].copy(), results[:, 1].copy(), found)
+    return SailedDraws(_events(packed, programme, raw), results[:, 0].copy(), results[:, 1].copy(), found)
 
 
 def _run(
@@ -314,5 +314,8 @@ def _raise_failure(status: int, vessel: Vessel, programme: Programme, frame: Flo
     )
 
 
-def _events(programme: Programme, raw: FloatArray) -> Events:
-    return Events({name: raw[:, row].copy() for row, name in enumerate(programme.event_names())})
+def _events(packed: Packed, programme: Programme, raw: FloatArray) -> Events:
+    rows = {name: raw[:, row].copy() for row, name in enumerate(programme.event_names())}
+    if not packed.shape[Shape.ROLL]:
+        rows.pop(MAXIMUM_HEEL, None)
+    return Events(rows)

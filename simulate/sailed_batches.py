@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import BrokenExecutor, CancelledError
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.errors import SimulationError, TowtankError
+from ..core.errors import SimulationError
 from .indices import event_indices
 from .parameter_scatter import split_draws
 from .programme import Programme
@@ -16,6 +18,8 @@ from .sail import DRAW_TOLERANCE, sail_events, status_in_words
 from .vessel import Vessel
 
 if TYPE_CHECKING:
+    from joblib import Parallel
+
     from .environment import Environment
 
 FloatArray = np.ndarray
@@ -29,8 +33,8 @@ COMPLETED = status_in_words(0)
 
 NO_RATE = "there is no self-propulsion point"
 
-_REPEATS = 3
-"""How often batches are sailed again that a broken cluster did not bring back."""
+_ROUNDS = 3
+"""How often batches are given out that killed workers do not bring back."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +135,7 @@ def sail_batches(
         Threads, or what `backend` says; 1 sails the batches in turn, unless ``joblib.parallel_config`` is in force.
     backend : str, optional
         One of joblib's: ``"threading"`` (default), ``"loky"`` for processes, ``"dask"`` for the workers of the
-        current ``dask.distributed.Client``.
+        current ``dask.distributed.Client``; a cluster that has lost its workers is waited for.
     progress : callable, optional
         ``progress(what, done, total)``, in draws.
     batch : int
@@ -146,21 +150,25 @@ def sail_batches(
     firsts = range(0, draws, batch)
     found: dict[int, SailedIndices] = {}
     done = 0
-    for _ in range(_REPEATS):
+    fault = "they were lost"
+    for _ in range(_ROUNDS):
         waiting = [_Batch(voyage, first, rows[first : first + batch]) for first in firsts if first not in found]
         if not waiting:
             break
-        for first, part in _in_parallel(waiting, workers, backend):
-            if first in found:
-                continue
-            found[first] = part
-            done += len(part.rates)
-            if progress is not None:
-                progress("sailing", done, draws)
+        try:
+            for first, part in _in_parallel(waiting, workers, backend):
+                if first in found:
+                    continue
+                found[first] = part
+                done += len(part.rates)
+                if progress is not None:
+                    progress("sailing", done, draws)
+        except _killed() as error:
+            fault = f"{type(error).__name__} {error}"
     if done != draws:
         raise SimulationError(
-            f"{draws - done} of {draws} draws did not come back from the workers",
-            cure="see the log of the cluster, or sail them with fewer workers",
+            f"{draws - done} of {draws} draws did not come back from the workers: {fault}",
+            cure="free memory, see the log of the cluster, or take fewer workers",
         )
     return _joined([found[first] for first in firsts])
 
@@ -170,30 +178,46 @@ def _sail_batch(batch: _Batch) -> tuple[int, SailedIndices]:
 
 
 def _in_parallel(batches: list[_Batch], workers: int, backend: str | None) -> Iterator[tuple[int, SailedIndices]]:
-    """Results in the order in which they come; those of a worker that was killed may be missing."""
-    from joblib import Parallel, delayed
+    """Results in the order in which they come."""
+    from joblib import delayed
     from joblib.parallel import ThreadingBackend, get_active_backend
 
     in_force, jobs = get_active_backend(prefer="threads")
     if workers == 1 and backend is None and jobs == 1 and isinstance(in_force, ThreadingBackend):
         yield from map(_sail_batch, batches)
         return
-    settings: dict[str, Any] = {"prefer": "threads"} if backend is None else {"backend": backend}
+    pool = _pool(workers, backend)
+    for item in pool(delayed(_sail_batch)(batch) for batch in batches):
+        # a backend that gives up a batch may hand over the fault in its place
+        if isinstance(item, tuple):
+            yield item
+
+
+def _pool(workers: int, backend: str | None) -> Parallel:
+    from contextlib import nullcontext
+
+    from joblib import Parallel, parallel_config
+
+    jobs = None if workers == 1 else workers
     try:
-        # in the order of completion: a batch that a killed worker begins anew holds up no other
-        pool = Parallel(
-            n_jobs=None if workers == 1 else workers, return_as="generator_unordered", batch_size=1, **settings
-        )
-        for item in pool(delayed(_sail_batch)(batch) for batch in batches):
-            if isinstance(item, tuple):
-                yield item
-    except (TowtankError, KeyboardInterrupt):
-        raise
+        with nullcontext() if backend is None else parallel_config(backend):
+            # in the order of completion: a batch that begins anew elsewhere holds up no other
+            return Parallel(jobs, prefer="threads", return_as="generator_unordered", batch_size=1)
     except ValueError as error:
         raise SimulationError(
-            f"the backend '{backend}' cannot be used: {error}",
-            cure="for a cluster install towtank[cluster] and create a dask.distributed.Client first",
+            f"the backend '{backend}' cannot be used: {' '.join(str(error).split())}",
+            cure="use threading or loky; for dask install towtank[cluster] and create a dask.distributed.Client",
         ) from error
+
+
+def _killed() -> tuple[type[BaseException], ...]:
+    """Errors that tell of a worker that was killed; its batches can be sailed again."""
+    kinds: tuple[type[BaseException], ...] = (BrokenExecutor, CancelledError)
+    if "distributed" in sys.modules:
+        from distributed import KilledWorker
+
+        kinds += (KilledWorker,)
+    return kinds
 
 
 def _joined(parts: list[SailedIndices]) -> SailedIndices:

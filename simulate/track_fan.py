@@ -110,7 +110,9 @@ def sail_fan(
     sailed = [sail(item, programme, environment=environment) for item in (vessel, *draws)]
     progress = [_progress(trajectory, along, side) for trajectory in sailed]
     ends = np.array([values[-1] for values in progress])
-    grid = np.linspace(0.0, min(ends[0], float(np.quantile(ends[1:], 1.0 - SAILING, method="higher"))), POINTS)
+    # circles all end at the same heading, but for rounding
+    last = ends.min() if along == "heading" else min(ends[0], np.quantile(ends[1:], 1.0 - SAILING, method="lower"))
+    grid = np.linspace(0.0, float(last), POINTS)
     columns = [name for name in sailed[0].frame.columns if name != "time" or along == "heading"]
     rows = {
         name: np.array(

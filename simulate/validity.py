@@ -6,6 +6,8 @@ import numpy as np
 
 from ..core.findings import Finding
 from ..core.motion import scaled_state
+from .programme import Programme
+from .propeller import ASTERN_SHARE, Propeller
 from .vessel import Vessel
 
 _COLUMNS = {"surge": 4, "v": 5, "r": 6, "phi": 7, "p": 8, "delta": 9}
@@ -41,4 +43,20 @@ def left_ranges(vessel: Vessel, frame: np.ndarray) -> list[Finding]:
             cure="measure in that range, or read the result as an extrapolation",
         )
         for message in hull.extrapolates(**ranges)
+    ]
+
+
+def assumed_astern(vessel: Vessel, programme: Programme) -> list[Finding]:
+    """A warning when the propeller is ordered astern and its thrust there is assumed."""
+    propeller = vessel.propeller
+    if not (programme.goes_astern() and isinstance(propeller, Propeller) and propeller.astern_KT is None):
+        return []
+    return [
+        Finding(
+            "assumption",
+            "warning",
+            f"'{vessel.name}': the thrust astern is assumed to be {ASTERN_SHARE:g} of the bollard thrust ahead at the"
+            f" same rate, KT = -{propeller.thrust_astern:.4g}",
+            cure="give the propeller's astern_KT from its four-quadrant diagram",
+        )
     ]

@@ -217,4 +217,6 @@ class Vessel:
                 value = getattr(holder, item.name)
                 if isinstance(value, float | int | np.floating) and not isinstance(value, bool):
                     names.append(f"{part}.{item.name}")
+        if isinstance(self.propeller, Propeller):
+            names += [f"propeller.{name}" for name in self.propeller.coefficients]
         return tuple(names)

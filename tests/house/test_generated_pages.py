@@ -11,6 +11,8 @@ from towtank.datasets import list_sets, list_tables
 from towtank.datasets.catalogue import Kind, find
 from towtank.pmm.audit_rules import RULES
 from towtank.reproduce import papers
+from towtank.simulate.index_definitions import DEFINITIONS, definition_of
+from towtank.simulate.ships import named_ships
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 
@@ -74,11 +76,27 @@ def _by_paper(groups: dict[str, list[tuple[object, ...]]], head: tuple[str, ...]
     return "\n\n".join(f"**{paper}**\n\n{_table(head, groups[paper])}" for paper in sorted(groups))
 
 
+def indices_text() -> str:
+    """The manoeuvring indices."""
+    numbered = ("overshoot 1", "time to check yaw 1", "time of execute 2", "time of overshoot 1", "time to 90")
+    numbered += ("speed ratio at 90", "drift distance 360-720", "drift direction 360-720")
+    return _table(
+        ("index", "unit", "definition"), [(name, *definition_of(name)) for name in (*DEFINITIONS, *numbered)]
+    )
+
+
+def ships_text() -> str:
+    """The named ships."""
+    return _table(("name", "ship"), [(f"`{name}`", line) for name, line in named_ships().items()])
+
+
 PAGES = {
     ("audit-rules.md", "rules"): rules_text,
     ("gallery.md", "papers"): papers_text,
     ("published-sets.md", "sets"): sets_text,
     ("published-sets.md", "tables"): tables_text,
+    ("simulator.md", "indices"): indices_text,
+    ("simulator.md", "ships"): ships_text,
 }
 """Page and marker -> text that stands between ``<!-- begin marker -->`` and ``<!-- end marker -->``."""
 

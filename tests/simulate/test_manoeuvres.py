@@ -18,8 +18,9 @@ from towtank.simulate.manoeuvres import (
     williamson,
     zigzag,
 )
-from towtank.simulate.sail import sail_events
+from towtank.simulate.sail import sail, sail_events
 from towtank.simulate.ships import named_ship
+from towtank.simulate.zigzag_indices import zigzag_indices
 
 KVLCC2 = named_ship("kvlcc2")
 
@@ -27,10 +28,10 @@ KVLCC2 = named_ship("kvlcc2")
 def test_names_of_the_events():
     assert turning(35, 360).event_names() == (
         "execute", "heading 10", "heading 20", "heading 30", "heading 60", "heading 90", "heading 180",
-        "heading 270", "maximum advance", "maximum transfer", "end",
+        "heading 270", "maximum advance", "maximum transfer", "maximum heel", "end",
     )  # fmt: skip
     names = set(zigzag(10, overshoots=2).event_names())
-    assert names == {"execute 1", "execute 2", "execute 3", "extreme 1", "extreme 2", "end"}
+    assert names == {"execute 1", "execute 2", "execute 3", "extreme 1", "extreme 2", "return 1", "end"}
     assert zigzag(-20, 10).name == "zigzag -20/10"
 
 
@@ -70,8 +71,32 @@ def test_reverse_spiral_finds_the_angle_of_a_steady_turn():
 def test_williamson_turn_comes_back_on_the_reciprocal_course_near_its_track():
     events = sail_events(KVLCC2, williamson(35)).events
     assert math.degrees(events.at("shift", "psi")[0]) == pytest.approx(60.0, abs=1e-9)
-    assert math.degrees(events.at("end", "psi")[0]) == pytest.approx(-180.0, abs=0.1)
+    assert math.degrees(events.at("end", "psi")[0]) == pytest.approx(-179.0, abs=1e-9)
     assert abs(events.at("end", "y")[0]) < 2.0 * KVLCC2.ship.L
+    # still ahead of the place of the order, where a man overboard would be
+    assert 0.0 < events.at("end", "x")[0] < 6.0 * KVLCC2.ship.L
+
+
+def test_zigzag_returns_to_its_course_between_extreme_and_next_execute():
+    events = sail_events(KVLCC2, zigzag(-20)).events
+    for number in (1, 2):
+        assert events.at(f"return {number}", "psi")[0] == pytest.approx(0.0, abs=1e-10)
+        times = [events.at(f"{name}", "time")[0] for name in (f"extreme {number}", f"return {number}")]
+        assert times[0] < times[1] < events.at(f"execute {number + 2}", "time")[0]
+    assert np.isfinite(zigzag_indices(events, KVLCC2.ship)["reach"][0])
+
+
+@pytest.mark.parametrize("rudder", [10, -10])
+def test_largest_heel_of_a_turn_is_outward_and_at_rest(rudder):
+    vessel = named_ship("s175-4dof")
+    track = sail(vessel, turning(rudder, 180))
+    events = track.events
+    assert events.at("maximum heel", "p")[0] == pytest.approx(0.0, abs=1e-10)
+    outward = -math.copysign(1.0, rudder) * track["phi"]
+    assert -math.copysign(1.0, rudder) * events.at("maximum heel", "phi")[0] == pytest.approx(
+        outward.max(), rel=2e-3
+    )
+    assert "maximum heel" not in sail_events(KVLCC2, turning(rudder, 90)).events
 
 
 @pytest.mark.parametrize("make", [turning, zigzag, initial_turning, pull_out, williamson])

@@ -33,6 +33,19 @@ def test_a_draw_sails_like_a_vessel_with_its_numbers():
         assert np.array_equal(drawn["heading 180"][number], alone["heading 180"][0])
 
 
+def test_coefficients_of_the_open_water_diagram_can_be_drawn():
+    from dataclasses import replace
+
+    assert {"propeller.k0", "propeller.k1", "propeller.k2"} <= set(KVLCC2.parameter_names())
+    k0 = np.array([0.2931, 0.30])
+    drawn = sail_events(KVLCC2, turning(35), changes={"propeller.k0": k0})
+    for number, value in enumerate(k0):
+        propeller = replace(KVLCC2.propeller, KT=(value, *KVLCC2.propeller.KT[1:]))
+        alone = sail_events(KVLCC2.but(propeller=propeller), turning(35))
+        assert drawn.rates[number] == alone.rates[0]
+        assert np.array_equal(drawn.events["heading 180"][number], alone.events["heading 180"][0])
+
+
 def test_unknown_number_is_named():
     with pytest.raises(SimulationError, match=r"rudder\.epsilon.*rudder\.eps"):
         pack(KVLCC2, changes={"rudder.epsilon": np.ones(2)})

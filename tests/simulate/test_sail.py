@@ -113,9 +113,23 @@ def test_order_beyond_the_gear_is_an_error():
         sail(KVLCC2.but(gear=replace(KVLCC2.gear, limit=math.radians(40.0))), turning(50))
 
 
-def test_astern_needs_a_propeller_that_goes_astern():
-    with pytest.raises(SimulationError, match="astern_KT"):
-        sail(KVLCC2, crash_stop())
+def test_astern_needs_a_propeller():
+    with pytest.raises(SimulationError, match="nothing is known about its thrust there"):
+        sail(named_ship("mariner"), crash_stop())
+
+
+@pytest.mark.parametrize("name", ["kvlcc2", "kcs", "dtc", "s175-3dof", "s175-4dof"])
+def test_named_ship_with_an_open_water_diagram_stops_by_an_assumed_thrust_which_is_a_finding(name):
+    vessel = named_ship(name)
+    found = sail(vessel, crash_stop())
+    assert found.events.at("stopped", "u")[0] == pytest.approx(0.0, abs=1e-9)
+    assumed = [finding for finding in found.provenance.findings if finding.rule == "assumption"]
+    assert len(assumed) == 1
+    assert f"{0.65 * vessel.propeller.KT[0]:.4g}" in assumed[0].message
+    given = vessel.but(propeller=replace(vessel.propeller, astern_KT=0.65 * float(vessel.propeller.KT[0])))
+    again = sail(given, crash_stop())
+    assert again.events.at("stopped", "x")[0] == found.events.at("stopped", "x")[0]
+    assert all(finding.rule != "assumption" for finding in again.provenance.findings)
 
 
 def test_draws_that_fail_are_counted_among_those_that_do_not():

@@ -1,0 +1,174 @@
+"""The report of free decays: one self-contained HTML page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from ..core.provenance import program_versions
+from ..core.ship import Ship
+from ..decay.decay_analysis import DecayAnalysis, DecayGroup, ship_of
+from ..decay.roll_damping import CONVENTIONS
+from .damping_drawings import DampingDrawings, draw_group
+from .damping_tables import (
+    equivalent_table,
+    failures_table,
+    ikeda_table,
+    method_notes,
+    method_table,
+    models_table,
+    ratio_facts,
+    ratio_sentence,
+    records_table,
+    terms_table,
+)
+from .page_table import Column, Table, make_table
+from .provenance_tables import findings_table, inputs_table, setting_rows, versions_text
+from .typography import significant
+
+HERE = Path(__file__).parent
+
+SECTIONS = {
+    "records": "Records",
+    "damping": "Damping by method",
+    "equivalent": "Equivalent damping",
+    "extinction": "Extinction curve",
+    "verdict": "What can be identified",
+    "ikeda": "Beside Ikeda",
+    "residuals": "Residuals",
+    "findings": "Findings",
+    "choices": "Choices",
+    "provenance": "Provenance",
+}
+"""Anchor and heading of each section, in order."""
+
+
+@dataclass(frozen=True)
+class GroupPage:
+    """What the page shows of one group of records."""
+
+    label: str
+    preferred: str
+    facts: list[tuple[str, str, str]]
+    methods: Table
+    failures: Table
+    equivalent: Table
+    ratio: str
+    terms: Table
+    models: Table | None
+    ikeda: Table | None
+    limits: tuple[str, ...]
+    drawn: DampingDrawings
+
+
+def render_damping_report(
+    analysis: DecayAnalysis,
+    *,
+    created: datetime | None = None,
+    progress: Callable[[str, int, int], None] | None = None,
+) -> str:
+    """The report of a decay campaign as HTML.
+
+    Parameters
+    ----------
+    analysis : DecayAnalysis
+    created : datetime, optional
+        Time that the page carries; the present one when not given.
+    progress : callable, optional
+        ``progress(what, done, total)``.
+
+    Returns
+    -------
+    str
+        A page that needs nothing beside itself: style and drawings are inside.
+    """
+    moment = (created or datetime.now(UTC)).astimezone(UTC)
+    groups = []
+    for number, group in enumerate(analysis.groups):
+        if progress:
+            progress("drawing", number, len(analysis.groups))
+        groups.append(_group(group, f"g{number + 1}", analysis))
+    if progress:
+        progress("drawing", len(groups), len(groups))
+    records = [record for group in analysis.groups for record in group.records]
+    findings = [item for group in analysis.groups for item in group.all_findings]
+    empty = {"ikeda": all(group.ikeda is None for group in analysis.groups)}
+    page: dict[str, Any] = {
+        "heading": analysis.campaign.decay,
+        "created": moment.strftime("%Y-%m-%d %H:%M UTC"),
+        "css": Markup((HERE / "report.css").read_text(encoding="utf-8")),
+        "particulars": _particulars(ship_of(analysis)),
+        "groups": groups,
+        "records": records_table(analysis),
+        "conventions": CONVENTIONS,
+        "method_notes": method_notes(),
+        "findings": findings_table(dict.fromkeys(findings)),
+        "choices": _choices(analysis),
+        "record_steps": [(record.name, record.steps) for record in records],
+        "versions": versions_text(program_versions()),
+        "inputs": inputs_table({record.source: record.sha256 for record in records if record.sha256}),
+        "sections": {anchor: title for anchor, title in SECTIONS.items() if not empty.get(anchor, False)},
+    }
+    environment = Environment(
+        loader=FileSystemLoader(HERE),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=StrictUndefined,
+    )
+    return environment.get_template("damping_report.html.j2").render(page)
+
+
+def _group(group: DecayGroup, prefix: str, analysis: DecayAnalysis) -> GroupPage:
+    fit = group.preferred
+    return GroupPage(
+        label=group.label,
+        preferred=f"By the {fit.method} fit, {fit.model.label}",
+        facts=ratio_facts(group),
+        methods=method_table(group, analysis.truth),
+        failures=failures_table(group),
+        equivalent=equivalent_table(group),
+        ratio=ratio_sentence(group),
+        terms=terms_table(group),
+        models=models_table(group),
+        ikeda=None if group.ikeda is None else ikeda_table(group.ikeda),
+        limits=() if group.ikeda is None else tuple(item.message for item in group.ikeda.findings),
+        drawn=draw_group(group, prefix, analysis.truth),
+    )
+
+
+def _choices(analysis: DecayAnalysis) -> Table:
+    """Every setting of the campaign, those that it sets first."""
+    rows = []
+    for section in ("reduction", "fit", "ikeda", "output"):
+        value = getattr(analysis.campaign, section)
+        if value is not None:
+            given = section in analysis.campaign.model_fields_set
+            rows += setting_rows(section, value, given)
+    ordered = [*(row for row in rows if row[2]), *(row for row in rows if not row[2])]
+    cells = [(key, text, "set" if given else "default") for key, text, given in ordered]
+    return make_table([Column("setting", "code"), Column("value"), Column("by")], cells)
+
+
+def _particulars(ship: Ship | None) -> list[tuple[str, str, str]]:
+    """Particulars that a decay needs, as (name, value, unit)."""
+    if ship is None:
+        return []
+    scale = "full scale" if ship.scale == 1 else f"1:{ship.scale:g}"
+    numbers: list[tuple[str, float | None, str]] = [
+        ("Length L", ship.L, "m"),
+        ("Breadth B", ship.B, "m"),
+        ("Draught T", ship.T, "m"),
+        ("Volume", ship.volume, "m³"),
+        ("Metacentric height GM", ship.GM, "m"),
+        ("Centre of gravity KG", ship.KG, "m"),
+        ("Water density ρ", ship.rho, "kg/m³"),
+    ]
+    rows = [("Ship", ship.name, ""), ("Scale", scale, "")]
+    return rows + [(name, significant(value, 4), unit) for name, value, unit in numbers if value is not None]
