@@ -316,7 +316,7 @@ class _Work:
 
 
 def _label(campaign: DecayCampaign, entry: RecordEntry) -> str:
-    parts = [entry.motion]
+    parts: list[str] = [entry.motion]
     if entry.scale != 1.0:
         parts.append(f"1:{entry.scale:g}")
     if not campaign.fit.speed_terms:

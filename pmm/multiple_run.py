@@ -247,15 +247,15 @@ class _CurveFitter:
         belongs = _same_yaw(yaw, levels)
         # A run that is alone at its level settles the intercept there and tells nothing else.
         levels, belongs = levels[belongs.sum(axis=0) > 1], belongs[:, belongs.sum(axis=0) > 1]
-        used = [test for test, member in zip(yaw, belongs.any(axis=1), strict=True) if member]
-        belongs = belongs[belongs.any(axis=1)]
+        member = np.flatnonzero(belongs.any(axis=1))
+        used, belongs = [yaw[index] for index in member], belongs[member]
         coupled = [term for term in self.terms if "v" in term.variables]
         alone = [term for term in self.terms if "v" not in term.variables]
         columns = []
-        for test, member in zip(used, belongs, strict=True):
+        for test, own in zip(used, belongs, strict=True):
             amplitude = test.motion.amplitude if test.motion else 0.0
             yaws = any(test.columns(alone, COS1))
-            intercepts = amplitude * member if yaws else np.zeros(len(levels))
+            intercepts = amplitude * own if yaws else np.zeros(len(levels))
             columns.append(np.concatenate([test.columns(coupled, COS1), intercepts]))
         self._fit("yaw with drift, cos 1 (MRL)", coupled, used, columns, COS1)
 

@@ -8,7 +8,6 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from ..core.provenance import program_versions
@@ -29,8 +28,9 @@ from .damping_tables import (
     terms_table,
 )
 from .page_table import Column, Table, make_table
+from .page_template import page_environment
 from .provenance_tables import findings_table, inputs_table, setting_rows, versions_text
-from .typography import significant
+from .ship_particulars import Particular, particulars
 
 HERE = Path(__file__).parent
 
@@ -99,11 +99,12 @@ def render_damping_report(
     records = [record for group in analysis.groups for record in group.records]
     findings = [item for group in analysis.groups for item in group.all_findings]
     empty = {"ikeda": all(group.ikeda is None for group in analysis.groups)}
+    ship = ship_of(analysis)
     page: dict[str, Any] = {
         "heading": analysis.campaign.decay,
         "created": moment.strftime("%Y-%m-%d %H:%M UTC"),
         "css": Markup((HERE / "report.css").read_text(encoding="utf-8")),
-        "particulars": _particulars(ship_of(analysis)),
+        "particulars": [] if ship is None else particulars([ship], _roll_particulars(ship)),
         "groups": groups,
         "records": records_table(analysis),
         "conventions": CONVENTIONS,
@@ -115,14 +116,7 @@ def render_damping_report(
         "inputs": inputs_table({record.source: record.sha256 for record in records if record.sha256}),
         "sections": {anchor: title for anchor, title in SECTIONS.items() if not empty.get(anchor, False)},
     }
-    environment = Environment(
-        loader=FileSystemLoader(HERE),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=StrictUndefined,
-    )
-    return environment.get_template("damping_report.html.j2").render(page)
+    return page_environment().get_template("damping_report.html.j2").render(page)
 
 
 def _group(group: DecayGroup, prefix: str, analysis: DecayAnalysis) -> GroupPage:
@@ -156,19 +150,10 @@ def _choices(analysis: DecayAnalysis) -> Table:
     return make_table([Column("setting", "code"), Column("value"), Column("by")], cells)
 
 
-def _particulars(ship: Ship | None) -> list[tuple[str, str, str]]:
-    """Particulars that a decay needs, as (name, value, unit)."""
-    if ship is None:
-        return []
-    scale = "full scale" if ship.scale == 1 else f"1:{ship.scale:g}"
-    numbers: list[tuple[str, float | None, str]] = [
-        ("Length L", ship.L, "m"),
-        ("Breadth B", ship.B, "m"),
-        ("Draught T", ship.T, "m"),
+def _roll_particulars(ship: Ship) -> list[Particular]:
+    """Particulars that roll depends on."""
+    return [
         ("Volume", ship.volume, "m³"),
         ("Metacentric height GM", ship.GM, "m"),
         ("Centre of gravity KG", ship.KG, "m"),
-        ("Water density ρ", ship.rho, "kg/m³"),
     ]
-    rows = [("Ship", ship.name, ""), ("Scale", scale, "")]
-    return rows + [(name, significant(value, 4), unit) for name, value, unit in numbers if value is not None]

@@ -65,7 +65,7 @@ def _totals() -> Iterator[Case]:
         ]
     )
     pooled = pooled_scores(long).set_index("quantity")
-    yield Case(KEY, "Table 4, sums", "points", float(totals["n"]), float(pooled.loc["bow", "n"]))
+    yield Case(KEY, "Table 4, sums", "points", float(totals["n"]), float(pooled["n"].to_dict()["bow"]))
     for name, said in _QUANTITIES.items():
         misprint = name == "cog"
         yield Case(
@@ -73,7 +73,7 @@ def _totals() -> Iterator[Case]:
             "Table 4, sums",
             f"BS at {said}" if name != "trim" else "BS of trim",
             float(totals[f"BS_{name}"]),
-            float(pooled.loc[name, "BS"]),
+            float(pooled["BS"].to_dict()[name]),
             expected=21.0 if misprint else None,
             note="9 is the sum of the cases A1 to B4; with C1, which the other sums hold, it is 21"
             if misprint

@@ -56,11 +56,11 @@ def _mean_sinkage() -> Iterator[Case]:
                 "mean sinkage, C1 to C3",
                 f"{said[name]}, {code}",
                 value,
-                float(table.loc[code, name]),
+                float(table[name].to_dict()[code]),
                 half_digit(4),
             )
     for code, percent in (("SlenderFlow", 8.1), ("RAPID", 23.5)):
-        computed = float(table.loc[code, "mean_absolute_percent"])
+        computed = float(table["mean_absolute_percent"].to_dict()[code])
         yield Case(
             KEY, "mean sinkage, C1 to C3", f"mean relative error, %, {code}", percent, computed, half_digit(1)
         )

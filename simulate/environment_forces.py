@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from .compilation import compiled
+from .compilation import compiled, compiled_for_python
 from .environment_layout import (
     CURRENT_X,
     CURRENT_Y,
@@ -24,7 +24,7 @@ from .environment_layout import (
 )
 
 
-@compiled
+@compiled_for_python
 def current_velocity(environment: np.ndarray, psi: float) -> tuple[float, float]:
     """Velocity of the water over ground along the ship's x and y, m/s, at heading `psi`."""
     ahead, across = environment[CURRENT_X], environment[CURRENT_Y]
@@ -32,7 +32,7 @@ def current_velocity(environment: np.ndarray, psi: float) -> tuple[float, float]
     return ahead * c + across * s, across * c - ahead * s
 
 
-@compiled
+@compiled_for_python
 def wind_forces(environment: np.ndarray, psi: float, u: float, v: float) -> tuple[float, float, float, float]:
     """Forces X, Y and moments K, N of the steady wind about midship.
 
@@ -68,14 +68,15 @@ def wind_forces(environment: np.ndarray, psi: float, u: float, v: float) -> tupl
     table = at + WIND_TABLE
     count = int(environment[table])
     i = table_segment(environment, table, angle)
-    x = table_value(environment, table, count, 0, i, angle)
-    y = table_value(environment, table, count, 1, i, angle)
-    k = table_value(environment, table, count, 2, i, angle)
-    n = table_value(environment, table, count, 3, i, angle)
+    column = table + 1 + count
+    x = table_value(environment, table, column, i, angle)
+    y = table_value(environment, table, column + 2 * count, i, angle)
+    k = table_value(environment, table, column + 4 * count, i, angle)
+    n = table_value(environment, table, column + 6 * count, i, angle)
     return squared * x, side * squared * y, side * squared * k, side * squared * n
 
 
-@compiled
+@compiled_for_python
 def wave_drift_forces(environment: np.ndarray, psi: float) -> tuple[float, float, float]:
     """Mean second-order wave forces X, Y and moment N about midship.
 
@@ -107,9 +108,10 @@ def wave_drift_forces(environment: np.ndarray, psi: float) -> tuple[float, float
     angle = math.atan2(abs(s), c)
     count = int(environment[data])
     i = table_segment(environment, data, angle)
-    x = table_value(environment, data, count, 0, i, angle)
-    y = table_value(environment, data, count, 1, i, angle)
-    n = table_value(environment, data, count, 2, i, angle)
+    column = data + 1 + count
+    x = table_value(environment, data, column, i, angle)
+    y = table_value(environment, data, column + 2 * count, i, angle)
+    n = table_value(environment, data, column + 4 * count, i, angle)
     return x, side * y, side * n
 
 
@@ -127,12 +129,13 @@ def table_segment(packed: np.ndarray, table: int, angle: float) -> int:
 
 
 @compiled
-def table_value(packed: np.ndarray, table: int, count: int, column: int, i: int, angle: float) -> float:
-    """Cubic Hermite interpolation in interval `i` of one column of an angle table."""
+def table_value(packed: np.ndarray, table: int, column: int, i: int, angle: float) -> float:
+    """Cubic Hermite interpolation in interval `i` of the column of an angle table that begins at `column`."""
+    count = int(packed[table])
     start = packed[table + 1 + i]
     width = packed[table + 2 + i] - start
     t = (angle - start) / width
-    at = table + 1 + count * (1 + 2 * column) + i
+    at = column + i
     left, right = packed[at], packed[at + 1]
     rise_left, rise_right = width * packed[at + count], width * packed[at + count + 1]
     step = right - left

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from .compilation import compiled
+from .compilation import compiled, compiled_for_python
 from .drift import drift_angle
 from .environment_forces import wave_drift_forces, wind_forces
 from .environment_layout import CURRENT_X, CURRENT_Y, WAVES_AT, WIND_AT
@@ -22,7 +22,7 @@ _SLOWEST = 1e-6
 """Share of the approach speed below which non-dimensional velocities are no longer divided by the speed."""
 
 
-@compiled
+@compiled_for_python
 def derivative(
     state: np.ndarray,
     control: np.ndarray,
@@ -131,7 +131,7 @@ def derivative(
     engine_rate(shape, p, control, n, flow, rate)
 
 
-@compiled
+@compiled_for_python
 def hull_forces(
     shape: np.ndarray, products: np.ndarray, nodes: np.ndarray, p: np.ndarray, value: np.ndarray
 ) -> tuple[float, float, float, float]:

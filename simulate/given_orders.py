@@ -8,6 +8,7 @@ import numpy as np
 
 from .compilation import compiled
 from .parameters import Control, Drive, Order, Parameter, Phase, Shape, State
+from .propulsion import propeller_flow, propeller_torque
 
 
 @compiled
@@ -39,6 +40,13 @@ def give_order(
     elif order[Phase.EXECUTE] == 1.0:
         # an order of an earlier manoeuvre with the same arrays does not stand
         control[Control.ENGINE] = Drive.TORQUE if shape[Shape.TORQUE] == 1 else Drive.CONSTANT
+
+
+@compiled
+def keep_torque(shape: np.ndarray, p: np.ndarray, start: np.ndarray) -> None:
+    """Note the torque of the approach, which an engine of constant torque keeps."""
+    u = start[State.U]
+    p[Parameter.TORQUE] = propeller_torque(p, start[State.N], propeller_flow(shape, p, u, 0.0, 0.0, u, 0.0))
 
 
 @compiled

@@ -53,7 +53,9 @@ DEFINITIONS: dict[str, IndexDefinition] = {
     "steady yaw rate L/U": IndexDefinition("-", "r L / U with the speed at the end of the turn"),
     "steady yaw rate L/U0": IndexDefinition("-", "r L / U0 with the approach speed"),
     "steady heel": IndexDefinition("deg", "roll angle at the end of the turn; positive to starboard"),
-    "maximum heel": IndexDefinition("deg", "roll angle at its first extreme after execute; positive to starboard"),
+    "maximum heel": IndexDefinition(
+        "deg", "largest roll angle after execute, out of the turn; positive to starboard"
+    ),
     "unsteadiness": IndexDefinition(
         "%", "change of the mean yaw rate between the last two quarter turns; 0 in a steady turn"
     ),

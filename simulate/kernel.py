@@ -9,7 +9,7 @@ import numpy as np
 from .compilation import compiled
 from .crossings import condition, locate
 from .equations import derivative
-from .given_orders import give_order, land, next_kink
+from .given_orders import give_order, keep_torque, land, next_kink
 from .parameters import STATES, Condition, Inflow, Parameter, Phase, Setting, Shape, State, Status, Watch
 from .runge_kutta import STAGES, dense_output, step
 from .step_limits import diverges, error_weights, goes_astern, unsteadiness
@@ -47,13 +47,15 @@ def sail_one(
     copy_state(start, reference)
     error_weights(p, start, settings[Setting.TOLERANCE], weight)
     tick = p[Parameter.LENGTH] / p[Parameter.SPEED]
+    if shape[Shape.TORQUE] == 1:
+        keep_torque(shape, p, start)
     for w in range(watches.shape[0]):
         pending[w, 0] = 1.0
     for i in range(4):
         result[i] = 0
     time = 0.0
     if settings[Setting.INTERVAL] > 0.0:
-        result[3] = write_sample(track, 0, time, state)
+        result[3] = write_sample(track, result[3], time, state)
 
     for phase in range(phases.shape[0]):
         order = phases[phase]
@@ -69,10 +71,14 @@ def sail_one(
         stop = condition(
             order[Phase.END], order[Phase.END_VALUE], order[Phase.END_SIGN], state, reference, environment
         )
-        kink = next_kink(order, p, state, control, schedule, time, begin, row)
-        derivative(state, control, shape, products, nodes, p, tables, environment, value, slopes[0])
+        kink = math.inf
+        bends = True
         h = _FIRST_STEP * tick
         while True:
+            if bends:
+                kink = next_kink(order, p, state, control, schedule, time, begin, row)
+                derivative(state, control, shape, products, nodes, p, tables, environment, value, slopes[0])
+                bends = False
             if result[1] + result[2] >= settings[Setting.MAX_STEPS]:
                 result[0] = Status.TOO_MANY_STEPS
                 return
@@ -202,8 +208,7 @@ def sail_one(
                 time = kink
                 row += 1
                 land(order, control, p, state)
-                kink = next_kink(order, p, state, control, schedule, time, begin, row)
-                derivative(state, control, shape, products, nodes, p, tables, environment, value, slopes[0])
+                bends = True
         if order[Phase.END_EVENT] >= 0.0:
             write_event(events, int(order[Phase.END_EVENT]), time, state)
     if settings[Setting.INTERVAL] > 0.0 and result[3] < track.shape[0] and track[result[3] - 1, 0] < time:

@@ -5,20 +5,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from .compilation import compiled
 from .kernel import sail_one
-from .parameters import CONTROLS, NODES, STATES
-from .runge_kutta import STAGES
+from .parameters import State
+from .straight_course import balanced_rate
 
 
-@njit(
-    "void(i8[::1], i8[:, ::1], i8[::1], f8[:, ::1], f8[::1], f8[::1], f8[:, ::1], f8[:, ::1], f8[:, ::1],"
-    " f8[:, ::1], f8[::1], f8[:, :, ::1], f8[:, ::1], i8[:, ::1])",
-    cache=True,
-    error_model="numpy",
-    nogil=True,
-)
+@compiled
 def sail_draws(
     shape: np.ndarray,
     products: np.ndarray,
@@ -34,6 +28,11 @@ def sail_draws(
     events: np.ndarray,
     track: np.ndarray,
     results: np.ndarray,
+    control: np.ndarray,
+    value: np.ndarray,
+    slopes: np.ndarray,
+    room: np.ndarray,
+    pending: np.ndarray,
 ) -> None:
     """Sail the programme once for each row of `parameters`.
 
@@ -43,8 +42,9 @@ def sail_draws(
         From :func:`towtank.simulate.packing.pack`.
     environment : ndarray
         From :class:`towtank.simulate.environment.Environment`.
-    starts : ndarray, shape (draws, 11)
-        States at the start.
+    starts : ndarray, shape (draws, 12)
+        States at the start. Of a programme without phases nothing is sailed: the propeller rates become those of the
+        self-propulsion point.
     phases, watches : ndarray
         From :class:`towtank.simulate.programme.Programme`.
     schedule : ndarray, shape (n, 3)
@@ -57,14 +57,28 @@ def sail_draws(
         Written: samples of the last draw at the interval of the settings.
     results : ndarray of int64, shape (draws, 4)
         Written: status, accepted steps, rejected steps, samples in `track`.
+    control, value, slopes, room, pending
+        Room to work in: :func:`towtank.simulate.compiled_kernel.sail_many`.
     """
-    control = np.zeros(CONTROLS)
-    value = np.zeros(NODES + products.shape[0])
-    slopes = np.zeros((STAGES, STATES))
-    room = np.zeros((5, STATES))
-    pending = np.zeros((watches.shape[0], 2))
     for draw in range(parameters.shape[0]):
-        events[draw] = math.nan
+        if phases.shape[0] == 0:
+            starts[draw, State.N] = balanced_rate(
+                starts[draw, State.U],
+                shape,
+                products,
+                nodes,
+                parameters[draw],
+                tables,
+                environment,
+                control,
+                room[0],
+                value,
+                slopes[0],
+            )
+            continue
+        for event in range(events.shape[1]):
+            for column in range(events.shape[2]):
+                events[draw, event, column] = math.nan
         sail_one(
             shape,
             products,

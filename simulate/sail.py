@@ -212,7 +212,7 @@ def _run(
     interval: float,
     rates: FloatArray | None,
 ) -> tuple[FloatArray, np.ndarray, FloatArray]:
-    from .many_draws import sail_draws
+    from .compiled_kernel import sail_many
 
     vessel = packed.vessel
     _check(packed, programme)
@@ -234,7 +234,7 @@ def _run(
     settings[Setting.MAX_STEP] = 10.0 * tick
     events = np.empty((packed.draws, len(programme.event_names()), 11))
     results = np.zeros((packed.draws, 4), dtype=np.int64)
-    sail_draws(
+    sail_many(
         packed.shape,
         packed.products,
         packed.nodes,
@@ -255,7 +255,7 @@ def _run(
 
 def _approach_rates(packed: Packed) -> FloatArray:
     """Propeller rate of the approach of each draw."""
-    from .self_propulsion import keep_torque, self_propulsion_rates
+    from .self_propulsion import self_propulsion_rates
 
     vessel = packed.vessel
     if vessel.rate is not None:
@@ -267,10 +267,7 @@ def _approach_rates(packed: Packed) -> FloatArray:
                 f"'{vessel.name}' has no self-propulsion point at {vessel.speed:.4g} m/s",
                 cure="check resistance and open-water diagram, or give the propeller rate",
             )
-    rates = rates * vessel.engine.power ** (1.0 / 3.0)
-    if packed.shape[Shape.TORQUE]:
-        keep_torque(packed, vessel.speed, rates)
-    return rates
+    return rates * vessel.engine.power ** (1.0 / 3.0)
 
 
 def _check(packed: Packed, programme: Programme) -> None:

@@ -1,6 +1,6 @@
 """Bow and stern squat from one of them through the hydrostatic restoring matrix, as manoeuvring simulators do.
 
-A vertical force at the centre of flotation's reference point makes the ship sink and trim; its size is chosen so
+A vertical force at the origin of the matrix makes the ship sink and trim; its size is chosen so
 that the bow sinks by what a formula says. Source: Tannuri, 5th MASHCON 2019, equations 5 and 6.
 """
 

@@ -157,11 +157,11 @@ def _channel_speed(blockage: float, froude: np.ndarray, flow: np.ndarray) -> np.
     With g = 2 sqrt(p/3) sin(a) the cubic g^3 - p g + q becomes sin(3 a) = q / (2 (p/3)^1.5): no iteration.
     """
     free = 1.0 - blockage + 0.5 * froude**2
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         scale = np.sqrt(2.0 * free / (3.0 * froude**2))
         root = 2.0 * scale * np.sin(np.arcsin(flow / (froude**2 * scale**3)) / 3.0)
-    # Where the level hardly drops, continuity alone remains; the sine formula loses its digits there.
-    return np.where(froude < 1e-4, flow / free, root)
+    # Where the level hardly drops, continuity alone remains: the sine formula divides by zero at rest.
+    return np.where(froude < 1e-6, flow / free, root)
 
 
 def _check_blockage(blockage: float) -> None:

@@ -173,11 +173,9 @@ class SquatFormula:
     def objections(self, passage: Passage) -> list[str]:
         """At each speed, which limits are broken, in words; empty where the formula applies."""
         n = len(passage.speed)
-        said: list[list[str]] = [[] for _ in range(n)]
-        if passage.fairway.kind not in self.waters:
-            text = f"not for {passage.fairway.kind} water" if passage.fairway.kind == "open" else "not for a "
-            for item in said:
-                item.append(text if passage.fairway.kind == "open" else text + passage.fairway.kind)
+        kind = passage.fairway.kind
+        water = "open water" if kind == "open" else f"a {kind}"
+        said: list[list[str]] = [[] if kind in self.waters else [f"not for {water}"] for _ in range(n)]
         for limit in self.limits:
             values = np.broadcast_to(np.asarray(QUANTITIES[limit.quantity](passage), dtype=float), (n,))
             for item, value in zip(said, values, strict=True):

@@ -8,7 +8,7 @@ not counted, and the table says how many are.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -141,9 +141,9 @@ def score_codes(measured: Mapping[str, float], codes: Mapping[str, Mapping[str, 
                 "has no point of the experiment", cure="name its points as the measured ones", place=code
             )
         most = max(most, len(names))
-        rows.append(
-            {"code": code, **_row(*(np.array([of[name] for name in names]) for of in (values, measured)), None)}
-        )
+        simulation = np.array([values[name] for name in names], dtype=float)
+        data = np.array([measured[name] for name in names], dtype=float)
+        rows.append({"code": code, **_row(simulation, data, None)})
     for row in rows:
         if row["n"] < most:
             row["note"] = "; ".join(filter(None, (row["note"], f"{row['n']} of {most} points")))
@@ -178,7 +178,7 @@ def pooled_scores(scores: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["quantity", "n", "Q", "BS"])
 
 
-def _row(s: np.ndarray, d: np.ndarray, near_zero: float | None) -> dict[str, float | int | str]:
+def _row(s: np.ndarray, d: np.ndarray, near_zero: float | None) -> dict[str, Any]:
     score = quality_and_bias(s, d, near_zero=near_zero)
     errors = relative_errors(s, d, near_zero=near_zero).absolute
     known = errors[np.isfinite(errors)]

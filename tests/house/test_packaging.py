@@ -121,7 +121,8 @@ def imported() -> dict[str, str]:
 
 def test_imports_are_declared():
     project = PROJECT["project"]
-    declared = distributions(project["dependencies"]) | distributions(project["optional-dependencies"]["tdms"])
+    extras = [*project["optional-dependencies"]["tdms"], *project["optional-dependencies"]["cluster"]]
+    declared = distributions(project["dependencies"]) | distributions(extras)
     assert {name: file for name, file in imported().items() if name not in declared | _COME_ALONG} == {}
 
 

@@ -16,11 +16,11 @@ from towtank.simulate.sailed_batches import BATCH, Voyage, _Batch
 from towtank.simulate.ships import named_ship
 
 KVLCC2 = named_ship("kvlcc2")
-DRAWS = 12 * BATCH
+DRAWS = 8 * BATCH
 
 
 def sailed(**more) -> Ensemble:
-    """KVLCC2 with 31 uncertain parameters, in twelve batches."""
+    """KVLCC2 with 31 uncertain parameters, in eight batches."""
     manoeuvres = [turning(35, 180), zigzag(10, overshoots=2)]
     return ensemble(KVLCC2, manoeuvres, n=DRAWS, seed=3, percent=5, names=(HULL, *MMG_COEFFICIENTS), **more)
 
@@ -48,7 +48,7 @@ def cluster():
     # the nannies start a worker again that was killed; the cluster must not take one that is killed again, while it
     # counts how long the first stays away, for lost
     with (
-        dask.config.set({"distributed.deploy.lost-worker-timeout": "10min"}),
+        dask.config.set({"distributed.deploy.lost-worker-timeout": "1h"}),
         distributed.LocalCluster(
             n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
         ) as local,

@@ -6,6 +6,7 @@ import math
 import os
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,7 +15,8 @@ from scipy.linalg import expm
 from towtank.core.conventions import Conventions
 from towtank.core.derivative_set import DerivativeSet
 from towtank.core.ship import Ship
-from towtank.simulate.equations import hull_forces
+from towtank.simulate.cross_flow import CrossFlow
+from towtank.simulate.equations import cross_flow_drag, hull_forces
 from towtank.simulate.manoeuvres import schedule, turning
 from towtank.simulate.packing import pack
 from towtank.simulate.parameters import NODES, Node, Parameter
@@ -130,3 +132,27 @@ def test_plain_python_twin_sails_the_same():
             twin = np.array([float.fromhex(x) if x != "nan" else math.nan for x in row.split()[-11:]])
             scale = np.maximum(np.abs(events[event][0]), 1e-6 * vessel.ship.L)
             assert np.allclose(twin / scale, events[event][0] / scale, atol=1e-9, equal_nan=True)
+
+
+def test_cross_flow_drag_slows_a_drifting_ship_as_its_integral_says():
+    # a constant sectional drag in pure sway: Y = -0.5 rho L T C_D |v| v, and no moment
+    vessel = named_ship("kvlcc2").but(cross_flow=CrossFlow.uniform(0.8))
+    ship = vessel.ship
+    packed = pack(vessel)
+    force, moment = cross_flow_drag.py_func(packed.shape, packed.tables, 0.3, 0.0)
+    assert force == pytest.approx(-0.5 * ship.rho * ship.L * ship.T * 0.8 * 0.09, rel=1e-12)
+    assert moment == pytest.approx(0.0, abs=1e-9)
+    free, dragged = (sail_events(one, turning(35)).events for one in (named_ship("kvlcc2"), vessel))
+    drift = [np.arctan2(-e.at("end", "v")[0], e.at("end", "u")[0]) for e in (free, dragged)]
+    assert drift[1] < drift[0]
+
+
+def test_table_of_a_polynomial_sails_like_the_polynomial():
+    vessel = named_ship("kvlcc2")
+    advance_ratio = np.linspace(-0.1, 1.0, 221)
+    thrust = np.polynomial.polynomial.polyval(advance_ratio, vessel.propeller.KT)
+    tabulated = vessel.but(propeller=replace(vessel.propeller, KT=np.column_stack([advance_ratio, thrust])))
+    polynomial, table = (sail_events(one, turning(35), tolerance=1e-7) for one in (vessel, tabulated))
+    assert table.rates[0] == pytest.approx(polynomial.rates[0], rel=1e-5)
+    for name in ("heading 90", "heading 180", "end"):
+        assert table.events[name][0, :3] == pytest.approx(polynomial.events[name][0, :3], rel=1e-4)
