@@ -247,7 +247,7 @@ class _CurveFitter:
         belongs = _same_yaw(yaw, levels)
         # A run that is alone at its level settles the intercept there and tells nothing else.
         levels, belongs = levels[belongs.sum(axis=0) > 1], belongs[:, belongs.sum(axis=0) > 1]
-        member = np.flatnonzero(belongs.any(axis=1))
+        member = np.flatnonzero(belongs.any(axis=1)).tolist()
         used, belongs = [yaw[index] for index in member], belongs[member]
         coupled = [term for term in self.terms if "v" in term.variables]
         alone = [term for term in self.terms if "v" not in term.variables]
