@@ -33,9 +33,9 @@ def write_manoeuvres(
     """Write everything that some manoeuvres yield.
 
     Files are ``indices.csv`` (manoeuvre, index, value, unit, sd, p05, p95; the last three empty without draws),
-    ``imo.csv``, ``trajectory_<manoeuvre>.csv``, with draws ``draws.csv``, ``elasticities.csv``, ``failures.csv``,
-    then ``figure_<name>.png``, ``report.html`` and ``provenance.json``. Numbers have all their digits; angles are in
-    degrees.
+    ``imo.csv``, ``steering.csv`` (course stability, Nomoto), ``trajectory_<manoeuvre>.csv``, with draws
+    ``draws.csv``, ``elasticities.csv``, ``failures.csv``, then ``figure_<name>.png``, ``report.html`` and
+    ``provenance.json``. Numbers have all their digits; angles are in degrees.
 
     Parameters
     ----------
@@ -71,6 +71,7 @@ def manoeuvre_tables(results: ManoeuvringResults, ending: str = "") -> list[tupl
     writers: list[tuple[str, Writer]] = [
         (f"indices{ending}.csv", csv_writer(results.indices_frame)),
         (f"imo{ending}.csv", csv_writer(results.imo_frame)),
+        (f"steering{ending}.csv", csv_writer(results.steering_frame)),
         *((f"trajectory_{file_part(one.manoeuvre)}{ending}.csv", one.to_csv) for one in results.trajectories),
     ]
     if results.ensemble is not None:
@@ -164,6 +165,9 @@ def manoeuvres_text(results: ManoeuvringResults) -> str:
         columns = ["criterion", "value", "limit", "unit", "margin_pct", "verdict"]
         columns += ["probability"] if "probability" in tested else []
         blocks.append("IMO MSC.137(76)\n" + aligned_text(tested, columns))
+    steering = results.steering_frame()
+    if len(steering):
+        blocks.append("course stability and Nomoto's indices\n" + aligned_text(steering, list(steering.columns)))
     blocks += [f"doubt: {line}" for line in results.doubts()]
     if results.ensemble is not None:
         blocks += [

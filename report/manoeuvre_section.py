@@ -9,7 +9,14 @@ from typing import TYPE_CHECKING
 from ..simulate.environment import Environment
 from ..simulate.manoeuvring_results import ManoeuvringResults
 from .drawings import Drawing
-from .manoeuvre_tables import choices_table, criteria_table, failures_table, index_tables, parts_table
+from .manoeuvre_tables import (
+    choices_table,
+    criteria_table,
+    failures_table,
+    index_tables,
+    parts_table,
+    steering_table,
+)
 from .page_table import Table
 
 if TYPE_CHECKING:
@@ -26,7 +33,7 @@ class ManoeuvreSection:
     ----------
     tables : tuple of (str, Table)
         Indices, by kind of manoeuvre.
-    criteria : Table
+    criteria, steering : Table
     failures : Table or None
     drawings : mapping of str to tuple of Drawing
         By kind: ``track``, ``time``, ``fan``, ``histogram``, ``elasticity``.
@@ -39,6 +46,7 @@ class ManoeuvreSection:
 
     tables: tuple[tuple[str, Table], ...]
     criteria: Table
+    steering: Table
     failures: Table | None
     drawings: dict[str, tuple[Drawing, ...]]
     doubts: tuple[str, ...]
@@ -76,6 +84,7 @@ def manoeuvre_section(
     return ManoeuvreSection(
         tables=tuple(index_tables(results)),
         criteria=criteria_table(results),
+        steering=steering_table(results),
         failures=failures_table(results),
         drawings={kind: tuple(items) for kind, items in drawn.items()},
         doubts=tuple(results.doubts()),

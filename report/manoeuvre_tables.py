@@ -72,6 +72,29 @@ def _places(sd: float) -> int:
     return 3 if sd == 0.0 else min(max(1 - math.floor(math.log10(abs(sd))), 0), 6)
 
 
+def steering_table(results: ManoeuvringResults) -> Table:
+    """Course stability of the hull and Nomoto's indices of the zig-zags."""
+    frame = results.steering_frame()
+    columns = [
+        Column("of", "short"),
+        Column("quantity", "short"),
+        Column("value", "number"),
+        Column("std", "number", "from the covariance of the set, to first order"),
+        Column("unit", "short"),
+    ]
+    rows = [
+        [
+            row["subject"],
+            row["quantity"],
+            significant(row["value"], 4),
+            "–" if math.isnan(row["sd"]) else significant(row["sd"], 2),
+            _UNITS.get(row["unit"], row["unit"]),
+        ]
+        for row in frame.to_dict("records")
+    ]
+    return make_table(columns, rows)
+
+
 def criteria_table(results: ManoeuvringResults) -> Table:
     """Criteria of IMO resolution MSC.137(76): value, limit, margin, verdict, and the probability of passing."""
     frame = results.imo_frame()

@@ -14,6 +14,7 @@ from .manoeuvre_names import KINDS
 from .parameter_scatter import HULL, MMG_COEFFICIENTS, value_of
 from .programme import Programme
 from .sail import sail
+from .steering_character import steering_frame
 from .trajectory import Trajectory
 from .vessel import Vessel
 
@@ -64,6 +65,10 @@ class ManoeuvringResults:
         if self.environment is not None:
             said += self.environment.doubts(self.vessel.ship)
         return list(dict.fromkeys(said))
+
+    def steering_frame(self) -> pd.DataFrame:
+        """Course stability and Nomoto's indices; see :func:`~towtank.simulate.steering_character.steering_frame`."""
+        return steering_frame(self.vessel, self.trajectories)
 
     def imo_frame(self) -> pd.DataFrame:
         """Verdicts of IMO resolution MSC.137(76); see :func:`~towtank.simulate.criteria.imo_criteria`.

@@ -110,7 +110,7 @@ def test_an_earlier_result_of_its_own_is_replaced(towtank, tmp_path):
     towtank("simulate", "kvlcc2", "--turning", 20, "--out", out, "--no-report", "--quiet")
     towtank("simulate", "kvlcc2", "--zigzag", "10", "--out", out, "--no-report", "--quiet")
     names = {path.name for path in out.iterdir()}
-    assert names == {"indices.csv", "imo.csv", "trajectory_zigzag_10-10.csv", "provenance.json"}
+    assert names == {"indices.csv", "imo.csv", "steering.csv", "trajectory_zigzag_10-10.csv", "provenance.json"}
 
 
 def test_a_schedule_course_keeping_and_an_environment(towtank, tmp_path):

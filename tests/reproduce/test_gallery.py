@@ -100,6 +100,13 @@ def test_no_tolerance_swallows_its_number(shown, key):
             "difference of bow mean, %",
             "difference of X mean, %",
         ],
+        "dtc-free-running": [
+            "sd of mean of the first overshoot, deg",
+            "sd of mean of the second overshoot, deg",
+            "uncertainty of the first overshoot, deg",
+        ],
+        "kcs-turning": ["safety index, waves 90 deg, 0.01 L high, 1 L long"],
+        "mellum": ["change of the radius in %"],
         "dtc-pmm": [
             "Xvv",
             "Xvvvv",
