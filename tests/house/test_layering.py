@@ -14,7 +14,7 @@ FLOORS = [
     ("datasets",),
     ("identify", "verify", "formats"),
     ("pmm", "decay", "squat"),
-    ("simulate",),
+    ("simulate", "cfd"),
     ("report", "reproduce"),
     ("cli",),
 ]
