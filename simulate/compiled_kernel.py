@@ -28,8 +28,9 @@ import numpy as np
 from .parameters import CONTROLS, NODES, STATES
 
 SOURCES = (
-    "crossings", "drift", "environment_forces", "environment_layout", "equations", "given_orders", "kernel",
-    "many_draws", "parameters", "propulsion", "rudder_force", "runge_kutta", "step_limits", "straight_course",
+    "circular", "crossings", "drift", "environment_forces", "environment_layout", "equations", "given_orders",
+    "kernel", "many_draws", "parameters", "propulsion", "rudder_force", "runge_kutta", "step_limits",
+    "straight_course",
 )  # fmt: skip
 """Modules whose functions are compiled."""
 
@@ -80,7 +81,7 @@ def fingerprint() -> str:
 def sail_many(*arrays: np.ndarray) -> None:
     """Sail draws: :func:`towtank.simulate.many_draws.sail_draws` without the room that it works in.
 
-    Other threads run meanwhile. The arrays are contiguous, of float64 and int64.
+    Other threads run meanwhile. The arrays are contiguous, of float64 and int64, and no two share memory.
     """
     products, watches = arrays[1], arrays[8]
     room = (
@@ -118,7 +119,7 @@ def _function() -> Callable[..., Any]:
 
     _start(llvm)
     sources = fingerprint()
-    machine = _target(llvm)
+    machine = host_machine(llvm)
     key = f"{sources}{llvm.get_host_cpu_name()}{machine.triple}{llvm.llvm_version_info}"
     name = f"kernel-{hashlib.sha256(key.encode()).hexdigest()[:24]}.bin"
     kept = _read(name)
@@ -142,7 +143,8 @@ def _start(llvm: Any) -> None:
     llvm.initialize_native_asmprinter()
 
 
-def _target(llvm: Any) -> Any:
+def host_machine(llvm: Any) -> Any:
+    """The processor that this runs on, for which LLVM makes code."""
     features = llvm.get_host_cpu_features().flatten()
     return llvm.Target.from_default_triple().create_target_machine(
         cpu=llvm.get_host_cpu_name(), features=features, opt=3, codemodel="jitdefault", jit=True

@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 
+from .circular import sine_and_cosine
 from .compilation import compiled, compiled_for_python
 from .drift import drift_angle
 from .environment_forces import wave_drift_forces, wind_forces
@@ -38,7 +39,7 @@ def derivative(
     """Time derivative of the state, written to `rate`; `value` is room for the variables and products."""
     psi, u, v, r = state[State.PSI], state[State.U], state[State.V], state[State.R]
     phi, roll, delta, n = state[State.PHI], state[State.P], state[State.DELTA], state[State.N]
-    c, s = math.cos(psi), math.sin(psi)
+    s, c = sine_and_cosine(psi)
     # sway and yaw of a heeled ship are in its own plane
     upright = math.cos(phi) if shape[Shape.ROLL] == 1 else 1.0
     rate[State.X] = u * c - upright * v * s + environment[CURRENT_X]
@@ -86,7 +87,7 @@ def derivative(
     force_x += p[Parameter.X_CONSTANT] + p[Parameter.ONE_MINUS_T] * thrust
 
     if shape[Shape.RUDDER] != Inflow.NONE:
-        sine, cosine = math.sin(delta), math.cos(delta)
+        sine, cosine = sine_and_cosine(delta)
         normal = rudder_normal_force(shape, p, v, r, speed, drift, flow, thrust, sine, cosine)
         force_x -= p[Parameter.ONE_MINUS_TR] * normal * sine
         lateral = normal * cosine
