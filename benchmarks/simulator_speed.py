@@ -39,7 +39,7 @@ _FIRST_CALL = """
 import time
 start = time.perf_counter()
 from towtank.simulate.manoeuvres import turning
-from towtank.simulate.sail import sail
+from towtank.simulate.sailing import sail
 from towtank.simulate.ships import named_ship
 sail(named_ship("kvlcc2"), turning(35))
 print(time.perf_counter() - start)
@@ -70,7 +70,7 @@ def throughputs(vessel, programme, tolerance, draws, repeat):
 
     One thread and two take turns, so that what else the machine does meets both; the ratio is the median of theirs.
     """
-    from towtank.simulate.sail import sail_events
+    from towtank.simulate.sailing import sail_events
 
     rng = np.random.default_rng(1)
     values = vessel.hull.values * (1.0 + 0.01 * rng.standard_normal((draws, len(vessel.hull))))
@@ -247,7 +247,7 @@ def run_peer(case, python):
 def main():
     """Measure and print."""
     from towtank.simulate.manoeuvres import turning, zigzag
-    from towtank.simulate.sail import sail_events
+    from towtank.simulate.sailing import sail_events
     from towtank.simulate.ships import named_ship
 
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])

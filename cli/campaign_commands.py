@@ -44,21 +44,24 @@ def run(
     Example: towtank run campaign.toml --out results --accept density
     """
     from ..pmm.campaign import Campaign
+    from ..report.campaign_manoeuvres import check_simulate, sail_campaign, sailed_text
     from ..report.outputs import loading_ahead, write_results
 
     with progress_bar(not quiet) as bar:
         progress = loading_ahead(bar) if report else bar
         loaded = Campaign.load(campaign)
         if loaded.file.simulate is not None:
-            from ..report.campaign_manoeuvres import check_simulate
-
-            check_simulate(loaded.file.simulate, loaded.path)
+            check_simulate(loaded.file.simulate, loaded.path, loaded.file.make_ship())
         result = loaded.run(accept_rules=accept or (), progress=progress, workers=workers, compare=report)
-        written = write_results(result, out, report=report and result.settings.output.report, progress=progress)
+        sailed = sail_campaign(result, progress)
+        wanted = report and result.settings.output.report
+        written = write_results(result, out, report=wanted, sailed=sailed, progress=progress)
     if quiet:
         return
     typer.echo(result.summary())
     print_findings(result.findings)
+    if sailed:
+        typer.echo(f"\n{sailed_text(sailed)}")
     typer.echo(f"\n{len(result.runs)} runs -> {out}{'/'}: {', '.join(path.name for path in written)}")
 
 

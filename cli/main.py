@@ -10,11 +10,17 @@ import typer
 from ..core.errors import TowtankError
 from . import (
     campaign_commands,
+    cfd_commands,
+    compare_command,
     decay_command,
+    gci_command,
     planning_commands,
     reproduce_command,
     set_commands,
     simulate_command,
+    squat_commands,
+    uq_command,
+    validate_cfd_command,
     validate_command,
 )
 from .demo_command import demo
@@ -51,10 +57,16 @@ def _options(
 app.command("demo")(demo)
 campaign_commands.register(app)
 decay_command.register(app)
+cfd_commands.register(app)
 set_commands.register(app)
+compare_command.register(app)
 planning_commands.register(app)
 simulate_command.register(app)
+squat_commands.register(app)
 validate_command.register(app)
+gci_command.register(app)
+validate_cfd_command.register(app)
+uq_command.register(app)
 reproduce_command.register(app)
 
 

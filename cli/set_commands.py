@@ -1,4 +1,4 @@
-"""``towtank sets``, ``show``, ``convert``, ``export`` and ``compare``: work with derivative sets."""
+"""``towtank sets``, ``show``, ``convert`` and ``export``: work with derivative sets."""
 
 from __future__ import annotations
 
@@ -20,7 +20,6 @@ def register(app: typer.Typer) -> None:
     app.command("show")(show)
     app.command("convert")(convert)
     app.command("export")(export)
-    app.command("compare")(compare)
 
 
 def sets(
@@ -104,24 +103,3 @@ def export(
 
     text = export_set(load_derivatives(name), target, out)
     typer.echo(text if out is None else f"written: {out}")
-
-
-def compare(
-    a: Annotated[str, typer.Argument(metavar="A", help="Reference (experiment): file, folder or published set.")],
-    b: Annotated[str, typer.Argument(metavar="B", help="Set to be judged (CFD).")],
-    out: Annotated[Path | None, typer.Option("--out", "-o", help="Write the table as CSV.")] = None,
-) -> None:
-    """Compare two derivative sets: errors in the three sign conventions, Q, BS and z-scores.
-
-    Example: towtank compare dtmb5512-efd results
-    """
-    from ..report.comparison import compare_sets, comparison_text
-
-    comparison = compare_sets(load_derivatives(a), load_derivatives(b))
-    typer.echo(comparison_text(comparison))
-    if out is not None:
-        from ..formats.write import atomic_path
-
-        with atomic_path(out) as temporary:
-            comparison.to_csv(temporary, index=False)
-        typer.echo(f"written: {out}")

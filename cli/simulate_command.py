@@ -217,5 +217,7 @@ def _print(results: ManoeuvringResults, as_json: bool) -> None:
         import json
 
         typer.echo(json.dumps(index_records(results), indent=1, ensure_ascii=False))
+        for line in results.doubts():
+            typer.echo(f"doubt: {line}", err=True)
         return
     typer.echo(manoeuvres_text(results))

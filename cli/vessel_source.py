@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from contextlib import suppress
 from difflib import get_close_matches
 from pathlib import Path
@@ -34,7 +35,7 @@ def load_vessel(name: str, *, ship_from: str | None = None, speed: float | None 
     from ..simulate.fitted_vessel import vessel_from_set
     from ..simulate.ships import named_ship, named_ships
 
-    if speed is not None and not speed > 0.0:
+    if speed is not None and not 0.0 < speed < math.inf:
         raise TowtankError(
             f"the approach speed {speed:g} m/s is not positive", cure="give --speed in m/s, above 0"
         )

@@ -24,7 +24,7 @@ from ..core.findings import Finding
 from ..identify.coefficient_table import CoefficientTable
 from ..identify.regression import fit_linear
 from .damping_models import TERMS
-from .excited_roll import integrate_excited, longest_step
+from .excited_roll import harmonic_motion, integrate_excited, longest_step, needed_excitation
 from .oscillations import Oscillation, split_oscillations
 
 if TYPE_CHECKING:
@@ -162,6 +162,13 @@ def fit_roll_at_sea(
     )
 
 
+def term_sizes(stiffness: float, amplitude: float) -> dict[str, float]:
+    """Sizes in which each term is of order one at an amplitude in rad, for a c1 of `stiffness`."""
+    rate = math.sqrt(stiffness)
+    sizes = {"b1": rate, "b2": 1.0 / amplitude, "b3": 1.0 / (rate * amplitude**2), "c1": stiffness}
+    return sizes | {"c3": stiffness / amplitude**2, "c5": stiffness / amplitude**4}
+
+
 def require_identifiable(oscillations: Sequence[Oscillation], terms: int, noise: float) -> None:
     """Refuse a record whose oscillations determine fewer numbers than are asked for.
 
@@ -227,10 +234,7 @@ class _Joint:
         self.time, self.angle, self.oscillations = time, angle, oscillations
         self.places = [TERMS.index(name) for name in terms]
         self.base = np.array([guess.get(name, 0.0) for name in TERMS], dtype=float)
-        top = max(item.amplitude for item in oscillations)
-        rate = math.sqrt(self.base[3])
-        sizes = {"b1": rate, "b2": 1.0 / top, "b3": 1.0 / (rate * top**2), "c1": rate**2}
-        sizes |= {"c3": (rate / top) ** 2, "c5": rate**2 / top**4}
+        sizes = term_sizes(self.base[3], max(item.amplitude for item in oscillations))
         self.units = np.array([sizes[name] for name in terms])
         self.ship = self.base[self.places] / self.units
         self.own = [self._first_guess(item) for item in oscillations]
@@ -241,22 +245,12 @@ class _Joint:
         t = self.time[item.rows] - self.time[item.rows.start]
         x = self.angle[item.rows]
         omega = 2.0 * math.pi / item.period
-        # Mean and three harmonics differentiate without noise.
-        order = np.arange(1, 4) * omega
-        basis = np.column_stack([np.ones_like(t), np.cos(np.outer(t, order)), np.sin(np.outer(t, order))])
-        parts = np.linalg.lstsq(basis, x, rcond=None)[0]
-        c, s = parts[1:4], parts[4:]
-        cosines, sines = np.cos(np.outer(t, order)), np.sin(np.outer(t, order))
-        v = cosines @ (order * s) - sines @ (order * c)
-        a = -(cosines @ (order**2 * c) + sines @ (order**2 * s))
-        y = basis @ parts
-        b1, b2, b3, c1, c3, c5 = self.base
-        moment = a + (b1 + b2 * np.abs(v) + b3 * v**2) * v + (c1 + c3 * y**2 + c5 * y**4) * y
-        wave = np.column_stack([np.sin(omega * t), np.cos(omega * t), np.ones_like(t)])
-        sine, cosine, bias = np.linalg.lstsq(wave, moment, rcond=None)[0]
+        motion = harmonic_motion(t, x, omega)
+        sine, cosine, bias = needed_excitation(t, motion, self.base, omega)
+        c1 = self.base[3]
         force = max(float(np.hypot(sine, cosine)), 1e-3 * c1 * item.amplitude)
         units = np.array([force, force, omega, force, item.amplitude, item.amplitude * omega])
-        return np.vstack([np.array([sine, cosine, omega, bias, x[0], v[0]]) / units, units])
+        return np.vstack([np.array([sine, cosine, omega, bias, x[0], motion[1][0]]) / units, units])
 
     def _path(self, item: Oscillation, ship: np.ndarray, own: np.ndarray) -> np.ndarray:
         c = self.base.copy()

@@ -194,6 +194,12 @@ def damping_model(
     return DampingModel(terms, springs, tuple(speed), dict(fixed or {}), curve)
 
 
+def damping_words(model: DampingModel) -> str:
+    """The damping of a model in words: ``linear+quadratic``."""
+    words = {term: word for word, term in _DAMPING_WORDS.items()}
+    return "+".join(words[term] for term in model.damping)
+
+
 def split_speed_term(name: str) -> tuple[str, int]:
     """Term and power of the speed: ``b1*U2`` is ``("b1", 2)``, ``b1`` is ``("b1", 0)``."""
     base, star, factor = name.partition("*")

@@ -3,212 +3,33 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..core.errors import CampaignError, FitError, TowtankError
 from ..core.findings import Finding
-from ..core.ship import Ship
-from .compare import DEFAULT_METHOD, METHODS, DecayComparison, compare_methods
-from .damping_models import MOTION_UNITS
+from .beside_memory import MemoryComparison, beside_memory
+from .compare import METHODS, DecayComparison, compare_methods
+from .damping_models import MOTION_UNITS, DampingModel
 from .decay_campaign import AUTO, DecayCampaign, RecordEntry, load_decay_campaign
 from .decay_input import read_decay
 from .decay_record import DecayRecord
+from .decay_results import CONTRADICTED, DISAGREES, DecayAnalysis, DecayGroup
 from .heave_pitch import DecayRatio, decay_ratio
 from .ikeda import IkedaHull
 from .ikeda_comparison import IkedaComparison, beside_ikeda
 from .model_verdict import ModelVerdict, judge_models
+from .radiation_table import RadiationTable, read_radiation
 from .roll_damping import RollDamping
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 Progress = Callable[[str, int, int], None]
 
-DISAGREES = "methods-disagree"
 DISAGREEING, DISAGREEING_PART = 3.0, 0.05
 """Standard errors, and part of the damping, by which a method must differ from the preferred one to be told."""
 _COMPARED = 9
-
-
-@dataclass(frozen=True, eq=False)
-class DecayGroup:
-    """Records of one motion, scale, speed and depth, fitted together.
-
-    Attributes
-    ----------
-    label : str
-    records : tuple of DecayRecord
-        Free parts, centred; each keeps the whole of its record.
-    comparisons : mapping of str to DecayComparison
-        By damping model in words.
-    verdict : ModelVerdict, optional
-        None when no model could be judged.
-    ratio : DecayRatio, optional
-        Damping ratio and natural frequency of the first record for a simulator.
-    ikeda : IkedaComparison, optional
-    findings : tuple of Finding
-        About the group beside those of the single fits.
-    """
-
-    label: str
-    records: tuple[DecayRecord, ...]
-    comparisons: Mapping[str, DecayComparison]
-    verdict: ModelVerdict | None
-    ratio: DecayRatio | None
-    ikeda: IkedaComparison | None
-    findings: tuple[Finding, ...] = ()
-
-    @property
-    def results(self) -> list[RollDamping]:
-        """Every fit, by model and method."""
-        return [one for comparison in self.comparisons.values() for one in comparison.results.values()]
-
-    @property
-    def failures(self) -> dict[str, str]:
-        """Methods that raised, with the reason, by ``method (model)``."""
-        return {
-            f"{method} ({words})": reason
-            for words, comparison in self.comparisons.items()
-            for method, reason in comparison.failures.items()
-        }
-
-    @property
-    def preferred(self) -> RollDamping:
-        """The fit to quote: the integration fit of the first model, or else the trusted one with the highest R2."""
-        first = next(iter(self.comparisons.values())).results
-        if DEFAULT_METHOD in first:
-            return first[DEFAULT_METHOD]
-        return max(first.values(), key=lambda one: (one.trusted, one.diagnostics.r2))
-
-    def doubts(self, fit: RollDamping) -> tuple[str, ...]:
-        """Rules that warn against one of the fits; empty when it may be trusted."""
-        rules = [item.rule for item in fit.findings if item.severity != "info"]
-        rules += [item.rule for item in self.findings if item.rule == DISAGREES and item.place == fit.method]
-        return tuple(dict.fromkeys(rules)) or (() if fit.trusted else ("not-converged",))
-
-    @property
-    def all_findings(self) -> list[Finding]:
-        """Those of the records, of the group and of the fits, each once."""
-        found = [item for one in self.records for item in one.findings]
-        found += [*self.findings, *(self.ikeda.findings if self.ikeda is not None else ())]
-        for one in self.results:
-            found += [replace(item, place=one.method) for item in one.findings]
-        return list(dict.fromkeys(found))
-
-
-@dataclass(frozen=True, eq=False)
-class DecayAnalysis:
-    """What a decay campaign yields.
-
-    Attributes
-    ----------
-    campaign : DecayCampaign
-    path : Path, optional
-        Of the campaign file.
-    groups : tuple of DecayGroup
-    """
-
-    campaign: DecayCampaign
-    path: Path | None
-    groups: tuple[DecayGroup, ...]
-
-    @property
-    def truth(self) -> Mapping[str, float]:
-        """True coefficients of virtual records; empty for measured ones."""
-        return self.campaign.decay.truth
-
-    def damping_frame(self) -> pd.DataFrame:
-        """Columns ``method, model, name, value, std, lower95, upper95, unit``; with several groups also ``group``."""
-        return self._stacked(lambda group: [one.table() for one in group.results])
-
-    def equivalent_frame(self) -> pd.DataFrame:
-        """Equivalent damping against amplitude of every method, units in the column names.
-
-        B44 and B44-hat are there where the ship's volume and GM are known.
-        """
-        points = self.campaign.output.points
-
-        def frames(group: DecayGroup) -> list[pd.DataFrame]:
-            return [equivalent_rows(one, points, group.records[0].speed) for one in group.results]
-
-        return self._stacked(frames)
-
-    def _stacked(self, frames: Callable[[DecayGroup], list[pd.DataFrame]]) -> pd.DataFrame:
-        import pandas as pd
-
-        tables = []
-        for group in self.groups:
-            for frame in frames(group):
-                tables.append(frame.assign(group=group.label) if len(self.groups) > 1 else frame)
-        return pd.concat(tables, ignore_index=True)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything but the series, for JSON."""
-        return {
-            "format": "towtank damping 1",
-            "name": self.campaign.decay.name,
-            "virtual": self.campaign.decay.virtual,
-            "truth": dict(self.truth),
-            "groups": [_group_dict(group) for group in self.groups],
-        }
-
-
-def equivalent_rows(fit: RollDamping, points: int, speed: float) -> pd.DataFrame:
-    """Equivalent damping of one fit over the amplitudes of its records, with B44 where the ship is known."""
-    low, high = fit.diagnostics.amplitudes
-    at = np.linspace(low, high, points)
-    frame = fit.equivalent(at, speed=speed).to_frame()
-    if is_dimensional(fit):
-        more = fit.dimensional(at, speed=speed)
-        frame = frame.assign(**{name: more[name] for name in more.columns if name.startswith("B44")})
-    frame.insert(0, "method", fit.method)
-    frame.insert(1, "model", fit.model.label)
-    return frame
-
-
-def is_dimensional(fit: RollDamping) -> bool:
-    """Whether B44 can be given: roll of a ship whose volume and GM are known."""
-    ship = fit.ship
-    return (
-        fit.motion == "roll"
-        and ship is not None
-        and ship.displacement_mass is not None
-        and ship.GM is not None
-        and ship.GM > 0.0
-    )
-
-
-def _group_dict(group: DecayGroup) -> dict[str, Any]:
-    verdict, ratio, ikeda = group.verdict, group.ratio, group.ikeda
-    return {
-        "label": group.label,
-        "records": [
-            {"name": one.name, "file": one.source, "sha256": one.sha256, "steps": list(one.steps)}
-            for one in group.records
-        ],
-        "preferred": {"method": group.preferred.method, "model": group.preferred.model.label},
-        "models": None
-        if verdict is None
-        else {"supported": verdict.supported, "table": verdict.to_frame().to_dict("records")},
-        "damping_ratio": None
-        if ratio is None
-        else {
-            "zeta": ratio.zeta,
-            "zeta_std": ratio.zeta_sd,
-            "zeta_light": ratio.zeta_light,
-            "omega_n [rad/s]": ratio.omega_n,
-            "omega_n_std [rad/s]": ratio.omega_n_sd,
-        },
-        "ikeda": None if ikeda is None else ikeda.table.to_dict("list"),
-        "results": [one.to_dict() for one in group.results],
-        "failures": group.failures,
-        "findings": [vars(item) for item in group.all_findings],
-    }
 
 
 def run_decay_campaign(
@@ -236,20 +57,66 @@ def run_decay_campaign(
     TowtankError
         When a file or key is wrong, a record holds no decay, or no method can fit it.
     """
-    path = None
-    if not isinstance(campaign, DecayCampaign):
-        path = Path(campaign)
-        campaign = load_decay_campaign(path)
-    start = Path(folder) if folder is not None else path.parent if path is not None else Path()
+    campaign, path, start = opened(campaign, folder)
+    records = read_records(campaign, start, accept=accept, progress=progress)
+    table = None if campaign.memory is None else _radiation(campaign, start)
+    return analyse_decays(campaign, records, path=path, radiation=table, progress=progress)
+
+
+def opened(
+    campaign: DecayCampaign | str | Path, folder: str | Path | None
+) -> tuple[DecayCampaign, Path | None, Path]:
+    """A campaign or its file, that file, and the folder where the names of its files start."""
+    if isinstance(campaign, DecayCampaign):
+        return campaign, None, Path(folder or "")
+    path = Path(campaign)
+    return load_decay_campaign(path), path, path.parent if folder is None else Path(folder)
+
+
+def read_records(
+    campaign: DecayCampaign,
+    folder: Path,
+    *,
+    accept: Sequence[str] = (),
+    progress: Progress | None = None,
+) -> list[DecayRecord]:
+    """Whole records of a campaign, one for each entry.
+
+    Parameters
+    ----------
+    campaign : DecayCampaign
+    folder : Path
+        Where the names of the record files start.
+    accept : sequence of str
+        Audit rules that the user waives beside those of the campaign.
+    progress : callable, optional
+        ``progress(what, done, total)``.
+    """
     waived = (*campaign.accept, *accept)
     records = []
     for number, entry in enumerate(campaign.records):
         if progress:
             progress("reading", number, len(campaign.records))
-        records.append(_read(campaign, entry, start, waived))
+        records.append(_read(campaign, entry, folder, waived))
     if progress:
         progress("reading", len(records), len(records))
-    return analyse_decays(campaign, records, path=path, progress=progress)
+    return records
+
+
+def _radiation(campaign: DecayCampaign, folder: Path) -> RadiationTable:
+    """The table of radiation, at the scale that it is given at."""
+    wanted = campaign.memory
+    assert wanted is not None
+    own = campaign.make_ship()
+    return read_radiation(
+        folder / wanted.table,
+        motion=campaign.records[0].motion,
+        frequency=wanted.frequency,
+        damping=wanted.damping,
+        added_mass=wanted.added_mass,
+        infinite=wanted.infinite,
+        scale=wanted.scale if wanted.scale is not None else 1.0 if own is None else own.scale,
+    )
 
 
 def _read(campaign: DecayCampaign, entry: RecordEntry, folder: Path, waived: Sequence[str]) -> DecayRecord:
@@ -279,6 +146,7 @@ def analyse_decays(
     records: Sequence[DecayRecord],
     *,
     path: Path | None = None,
+    radiation: RadiationTable | None = None,
     progress: Progress | None = None,
 ) -> DecayAnalysis:
     """Analyse records that are in memory by the settings of a campaign.
@@ -290,6 +158,8 @@ def analyse_decays(
         Whole records, one for each entry of the campaign.
     path : Path, optional
         Of the campaign file.
+    radiation : RadiationTable, optional
+        For the fit with memory beside the others.
     progress : callable, optional
     """
     groups: dict[str, list[DecayRecord]] = {}
@@ -297,7 +167,7 @@ def analyse_decays(
         label = _label(campaign, entry)
         groups.setdefault(label, []).append(_free(campaign, entry, record))
     work = _Work(progress, len(groups) * (1 + len(campaign.fit.models) * len(campaign.fit.chosen_methods)))
-    done = [_analyse(campaign, label, free, work) for label, free in groups.items()]
+    done = [_analyse(campaign, label, free, radiation, work) for label, free in groups.items()]
     return DecayAnalysis(campaign, path, tuple(done))
 
 
@@ -348,7 +218,13 @@ def _amplitude(value: float | None, record: DecayRecord) -> float | None:
     return value if value is None or MOTION_UNITS[record.motion] == "m" else math.radians(value)
 
 
-def _analyse(campaign: DecayCampaign, label: str, records: list[DecayRecord], work: _Work) -> DecayGroup:
+def _analyse(
+    campaign: DecayCampaign,
+    label: str,
+    records: list[DecayRecord],
+    radiation: RadiationTable | None,
+    work: _Work,
+) -> DecayGroup:
     found: list[Finding] = []
     fit = campaign.fit
     verdict = _verdict(campaign, records, found)
@@ -365,22 +241,51 @@ def _analyse(campaign: DecayCampaign, label: str, records: list[DecayRecord], wo
         if verdict is not None and verdict.contradicts(words):
             found.append(
                 Finding(
-                    "model-contradicted",
+                    CONTRADICTED,
                     "warning",
                     f"the records contradict {words} damping; the fewest terms they support are {verdict.supported}",
                     place=label,
                     cure="see the table of models; the equivalent damping inside the record suffers least",
                 )
             )
-    group = DecayGroup(label, tuple(records), comparisons, verdict, _ratio(records[0], found), None)
+    memory = None
+    if radiation is not None:
+        first = next(iter(comparisons))
+        memory = _with_memory(campaign, records, fit.make_model(first, restoring), radiation)
+        results = {**comparisons[first].results, memory.fit.method: memory.fit}
+        comparisons[first] = replace(comparisons[first], results=results)
+    ratio = _ratio(records[0], found)
+    group = DecayGroup(label, tuple(records), comparisons, verdict, ratio, None, memory=memory)
     found.extend(disagreements(group))
     ikeda = _beside_ikeda(campaign, group, found)
     return replace(group, ikeda=ikeda, findings=tuple(found))
 
 
+def _with_memory(
+    campaign: DecayCampaign, records: Sequence[DecayRecord], model: DampingModel, radiation: RadiationTable
+) -> MemoryComparison:
+    wanted = campaign.memory
+    assert wanted is not None
+    if records[0].motion != radiation.motion:
+        raise CampaignError(
+            f"the table of radiation is of {radiation.motion}, '{records[0].name}' is {records[0].motion}",
+            cure="one campaign with memory holds one motion",
+            place="[memory]",
+        )
+    return beside_memory(
+        records,
+        model,
+        radiation,
+        inertia=wanted.inertia,
+        restoring=wanted.restoring,
+        free=wanted.free,
+        order=wanted.order,
+    )
+
+
 def _verdict(campaign: DecayCampaign, records: Sequence[DecayRecord], found: list[Finding]) -> ModelVerdict | None:
     fit = campaign.fit
-    if fit.speed_terms or fit.fixed:
+    if fit.speed_terms or fit.fixed or fit.gz:
         return None
     try:
         return judge_models(records, restoring=None if fit.restoring == AUTO else fit.restoring)
@@ -483,8 +388,3 @@ def _beside_ikeda(campaign: DecayCampaign, group: DecayGroup, found: list[Findin
 def _within(fit: RollDamping, points: int) -> np.ndarray:
     low, high = fit.diagnostics.amplitudes
     return np.linspace(low, high, points)
-
-
-def ship_of(analysis: DecayAnalysis) -> Ship | None:
-    """The ship of the first group at the scale of its records."""
-    return analysis.groups[0].records[0].ship

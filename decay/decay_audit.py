@@ -11,7 +11,8 @@ from ..core.errors import ReadError
 from ..core.findings import Finding, Severity
 from ..core.ship import Ship
 from ..core.variables import GRAVITY
-from .zero_phase_filter import dominant_frequency, is_uniform
+from ..identify.low_pass import is_uniform
+from .dominant_frequency import dominant_frequency
 
 FEWEST_SAMPLES = 20
 # A step longer than this many median steps is a gap.

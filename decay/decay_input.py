@@ -83,7 +83,10 @@ def decay_from_table(
             else "give unit = 'm' or 'mm'",
             file=source or None,
         )
-    factor = convertible(unit, "length" if motion == "heave" else "angle")
+    try:
+        factor = convertible(unit, "length" if motion == "heave" else "angle")
+    except ReadError as error:
+        raise ReadError(error.cause, cure=error.cure, file=source or None, place=f"channel {angle}") from None
     if factor is None:
         raise ReadError(
             f"unit '{unit}' does not measure {motion}",

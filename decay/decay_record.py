@@ -11,13 +11,18 @@ import numpy as np
 from ..core.errors import FitError
 from ..core.findings import Finding
 from ..core.ship import Ship
+from ..identify.low_pass import FILTER_ORDER, low_pass
 from .damping_models import MOTION_UNITS
+from .dominant_frequency import CUTOFF_OVER_DECAY, derivatives
 from .extremes import Extremes, find_extremes
 from .release import find_free_part
-from .zero_phase_filter import CUTOFF_OVER_DECAY, FILTER_ORDER, derivatives, low_pass
 
 #: Channel of each motion in a :class:`~towtank.core.record.Record`.
 MOTION_CHANNELS = {"roll": "phi", "pitch": "theta", "heave": "heave"}
+
+#: Periods of the decay at both ends of a filtered record in which the filter sees beyond it.
+END_PERIODS = 0.5
+FEWEST_DERIVED = 8
 
 Offset = Literal["constant", "drift", "none"]
 
@@ -101,7 +106,9 @@ class DecayRecord:
     def with_derivatives(self, cutoff: float | None = None, order: int = FILTER_ORDER) -> DecayRecord:
         """Copy with velocity and acceleration of the filtered coordinate; the coordinate stays as it was recorded.
 
-        Taken before the record is cut, the derivatives at the release are not falsified by the end of the record.
+        At both ends, where the filter sees beyond the record, one period of the cut-off and at least half a period
+        of the decay are dropped. Taken before the record is cut, the derivatives at the release are not falsified by
+        the end of the record; a record that begins at the release loses its first samples.
 
         Parameters
         ----------
@@ -109,15 +116,31 @@ class DecayRecord:
             Of the zero-phase Butterworth filter in Hz; five times the frequency of the decay when not given.
         order : int
             Order of one pass.
+
+        Raises
+        ------
+        FitError
+            If nothing is left between the ends.
         """
-        smooth = self.filtered(cutoff, order)
+        chosen = CUTOFF_OVER_DECAY / self.period if cutoff is None else cutoff
+        smooth = self.filtered(chosen, order)
         rate, acceleration = derivatives(self.time, smooth.value)
-        return replace(
+        lost = round(max(END_PERIODS * self.period, 1.0 / chosen) / self.time_step)
+        if len(self) - 2 * lost < FEWEST_DERIVED:
+            raise FitError(
+                f"{max(len(self) - 2 * lost, 0)} sample(s) are left between the ends of the record, where the filter "
+                "sees beyond it",
+                cure="give a longer record",
+                file=self.source or None,
+                place=self.name,
+            )
+        derived = replace(
             self,
             rate=rate,
             acceleration=acceleration,
             steps=(*self.steps, f"derivatives by a quintic spline after: {smooth.steps[-1]}"),
         )
+        return derived._rows(slice(lost, len(self) - lost), f"{lost} samples dropped at both ends")
 
     def free_part(
         self,

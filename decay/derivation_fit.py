@@ -11,14 +11,15 @@ import numpy as np
 from ..core.errors import FitError
 from ..core.findings import Finding
 from ..identify.linear_fit import LinearFit
+from ..identify.low_pass import FILTER_ORDER, low_pass
 from ..identify.regression import fit_linear
 from .coloured_noise import ColouredNoise
 from .damping_models import DampingModel
 from .decay_record import DecayRecord
+from .dominant_frequency import derivatives
 from .fit_assessment import as_records, assess, fitted_gradient, record_noise, require_speeds
 from .resimulation import Simulated, Start, resimulate
 from .roll_damping import RollDamping
-from .zero_phase_filter import FILTER_ORDER, derivatives, low_pass
 
 Covariance = Literal["autocorrelated", "independent"]
 
@@ -178,6 +179,40 @@ def fit_equation(
     return fit_linear(np.vstack(blocks), np.concatenate(responses), names)
 
 
+def resimulated_design(
+    linear: LinearFit,
+    records: Sequence[DecayRecord],
+    derived: Sequence[Derived],
+    model: DampingModel,
+    simulated: Sequence[Simulated],
+) -> np.ndarray:
+    """Instruments: the design with the terms of the re-simulated motion in place of the measured ones.
+
+    Parameters
+    ----------
+    linear : LinearFit
+        Of :func:`fit_equation`.
+    records, derived : sequence
+        As given to it.
+    model : DampingModel
+    simulated : sequence of Simulated
+        One a record.
+
+    Returns
+    -------
+    ndarray, shape of the design
+        The rest positions keep their columns.
+    """
+    clean = linear.design.copy()
+    places = [model.names.index(name) for name in model.free]
+    begin = 0
+    for record, one, motion in zip(records, derived, simulated):
+        rows = one.seen(model.columns(motion.motion, motion.rate, record.speed))[:, places]
+        clean[begin : begin + len(rows), : len(places)] = rows
+        begin += len(rows)
+    return clean
+
+
 def fit_derivation(
     records: DecayRecord | Sequence[DecayRecord],
     model: DampingModel | None = None,
@@ -231,7 +266,7 @@ def fit_derivation(
     fitted = [
         resimulate(one, chosen, chosen.spread(one.speed) @ everything, start=start, offset=offset) for one in runs
     ]
-    clean = _instruments(linear, runs, derived, chosen, [sim for _, sim in fitted])
+    clean = resimulated_design(linear, runs, derived, chosen, [sim for _, sim in fitted])
     unbiased = np.linalg.solve(clean.T @ linear.design, clean.T @ linear.response)
     if instruments:
         values = dict(zip(chosen.free, unbiased[:count]))
@@ -317,24 +352,6 @@ def _require_restoring(values: dict[str, float], model: DampingModel, record: De
             file=record.source or None,
             place=record.name,
         )
-
-
-def _instruments(
-    linear: LinearFit,
-    records: Sequence[DecayRecord],
-    derived: Sequence[Derived],
-    model: DampingModel,
-    simulated: Sequence[Simulated],
-) -> np.ndarray:
-    """The design with the terms of the re-simulated motion in place of the measured ones, shape as the design."""
-    clean = linear.design.copy()
-    free = [i for i, name in enumerate(model.names) if name not in model.fixed]
-    begin = 0
-    for record, one, sim in zip(records, derived, simulated):
-        columns = one.seen(model.columns(sim.motion, sim.rate, record.speed))
-        clean[begin : begin + columns.shape[0], : len(free)] = columns[:, free]
-        begin += columns.shape[0]
-    return clean
 
 
 def _angle_influence(

@@ -97,8 +97,16 @@ class EquivalentDamping:
         }
         return pd.DataFrame(columns)
 
-    def dimensional_frame(self, inertia: float, hat: float) -> pd.DataFrame:
-        """B44 in N m s and B44-hat with their limits, for an inertia in kg m2 and the factor of the hat form."""
+    def dimensional_frame(self, inertia: float | np.ndarray, hat: float) -> pd.DataFrame:
+        """B44 in N m s and B44-hat with their limits.
+
+        Parameters
+        ----------
+        inertia : float or ndarray, shape (m,)
+            In kg m2: one, or one an amplitude.
+        hat : float
+            Factor of the hat form.
+        """
         frame = self.to_frame().iloc[:, :2].copy()
         for name, value in (("", self.B), (" lower", self.B_lower), (" upper", self.B_upper)):
             frame[f"B44{name} [N m s]"] = value * inertia

@@ -143,3 +143,54 @@ def simulate_excited_roll(
         return integrate_excited(
             instants, np.array(start, dtype=float), values, parts, longest_step(values[3], wave.frequency)
         )
+
+
+def harmonic_motion(
+    time: np.ndarray, angle: np.ndarray, frequency: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Angle, rate and acceleration of one oscillation by its mean and three harmonics, shape (n,) each.
+
+    Differentiated so, the noise of the record does not grow.
+
+    Parameters
+    ----------
+    time, angle : ndarray, shape (n,)
+        s and rad.
+    frequency : float
+        Of the oscillation in rad/s.
+    """
+    order = np.arange(1, 4) * frequency
+    cosines, sines = np.cos(np.outer(time, order)), np.sin(np.outer(time, order))
+    basis = np.column_stack([np.ones_like(time), cosines, sines])
+    parts = np.linalg.lstsq(basis, angle, rcond=None)[0]
+    c, s = parts[1:4], parts[4:]
+    rate = cosines @ (order * s) - sines @ (order * c)
+    acceleration = -(cosines @ (order**2 * c) + sines @ (order**2 * s))
+    return basis @ parts, rate, acceleration
+
+
+def needed_excitation(
+    time: np.ndarray,
+    motion: tuple[np.ndarray, np.ndarray, np.ndarray],
+    coefficients: np.ndarray,
+    frequency: float,
+) -> tuple[float, float, float]:
+    """Sine part, cosine part and bias (rad/s2) of the excitation that a motion needs, by least squares.
+
+    Parameters
+    ----------
+    time : ndarray, shape (n,)
+        s, from the first sample of the oscillation.
+    motion : tuple of ndarray, shape (n,)
+        Angle, rate and acceleration.
+    coefficients : ndarray, shape (6,)
+        b1, b2, b3, c1, c3, c5.
+    frequency : float
+        Of the excitation in rad/s.
+    """
+    y, v, a = motion
+    b1, b2, b3, c1, c3, c5 = coefficients
+    moment = a + (b1 + b2 * np.abs(v) + b3 * v**2) * v + (c1 + c3 * y**2 + c5 * y**4) * y
+    wave = np.column_stack([np.sin(frequency * time), np.cos(frequency * time), np.ones_like(time)])
+    sine, cosine, bias = np.linalg.lstsq(wave, moment, rcond=None)[0]
+    return float(sine), float(cosine), float(bias)

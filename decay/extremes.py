@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.errors import FitError
-from .zero_phase_filter import dominant_frequency, low_pass
+from ..identify.low_pass import low_pass
+from .dominant_frequency import dominant_frequency
 
 # Cut-off of the smoothing that only decides where the turning points are, over the frequency of the decay.
 DETECTION_CUTOFF = 2.5

@@ -23,9 +23,15 @@ from .roll_damping import CONVENTIONS, RollDamping, roll_damping
 UNEXPLAINED = 0.5
 #: Below this R2 a warning stands in the result.
 POOR = 0.95
+#: Above this R2 a re-simulated motion is good enough, whatever the noise.
+EXPLAINED = 0.999
+#: Residual of the re-simulated motion over that of the same terms fitted to the motion, above which it is told.
+MISSED = 2.0
 #: Correlation of two coefficients above which they are not to be quoted singly.
 INSEPARABLE = 0.95
 FEW_HALF_CYCLES = 6
+#: Initial coordinate and velocity, and rest position: what belongs to each record.
+OWN_VALUES = 3
 #: A bias beyond this part of a standard error and this part of the equivalent damping is told.
 TOLD_BIAS = 0.5
 TOLD_PART = 0.005
@@ -103,7 +109,7 @@ def fitted_gradient(record: DecayRecord, model: DampingModel, simulated: Simulat
     """Gradient of a simulated record by the free terms, the initial values and the offset, shape (n, q + 3)."""
     free = [i for i, name in enumerate(model.names) if name not in model.fixed]
     terms = simulated.gradient[:, :6] @ model.spread(record.speed)[:, free]
-    return np.hstack([terms, simulated.gradient[:, 6:]])
+    return np.hstack([terms, simulated.gradient[:, 6:9]])
 
 
 def assess_influences(
@@ -168,10 +174,58 @@ def assess_influences(
         covariance,
         runs,
         noise,
-        findings=_bias_findings(method, records, model, everything, bias, covariance),
+        findings=[
+            *_bias_findings(method, records, model, everything, bias, covariance),
+            *missed_motion(method, records, runs, gradients),
+        ],
         details={"bias of the method": bias, **(details or {})},
         choices=choices,
     )
+
+
+def missed_motion(
+    method: str, records: Sequence[DecayRecord], runs: Sequence[FittedRun], gradients: Sequence[np.ndarray]
+) -> list[Finding]:
+    """Whether the coefficients together leave the motion further off than the same terms need to.
+
+    The standard errors may be honest and the equivalent damping right; but an estimator that does not look at the
+    phase, or is at the mercy of noisy velocities, gives a set that does not reproduce the record.
+
+    Parameters
+    ----------
+    method : str
+    records : sequence of DecayRecord
+    runs : sequence of FittedRun
+        Re-simulated with the coefficients.
+    gradients : sequence of ndarray, shape (n, q)
+        Gradients of each by the terms, its initial values and its rest position.
+    """
+    left = np.concatenate([run.residual for run in runs])
+    shared = gradients[0].shape[1] - OWN_VALUES
+    wide = np.zeros((left.size, shared + OWN_VALUES * len(runs)))
+    begin = 0
+    for k, gradient in enumerate(gradients):
+        rows = slice(begin, begin + gradient.shape[0])
+        wide[rows, :shared] = gradient[:, :shared]
+        wide[rows, shared + OWN_VALUES * k : shared + OWN_VALUES * (k + 1)] = gradient[:, shared:]
+        begin += gradient.shape[0]
+    length = np.linalg.norm(wide, axis=0)
+    wide = wide / np.where(length > 0.0, length, 1.0)
+    least = left - wide @ np.linalg.lstsq(wide, left, rcond=None)[0]
+    ratio = float(np.linalg.norm(left) / max(float(np.linalg.norm(least)), 1e-300))
+    if ratio < MISSED or explained(runs) > EXPLAINED:
+        return []
+    return [
+        Finding(
+            "motion-missed",
+            "warning",
+            f"the motion that the coefficients of the {method} give is {ratio:.1f} times as far from the record as "
+            "the same terms can come",
+            records[0].source,
+            records[0].name,
+            "quote its equivalent damping at most; use the integration fit",
+        )
+    ]
 
 
 def _bias_findings(

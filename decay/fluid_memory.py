@@ -4,98 +4,27 @@ Cummins' equation, divided by the inertia ``I + A_inf``::
 
     x'' + b1 x' + b2 |x'|x' + b3 x'^3 + c1 x + c3 x^3 + c5 x^5 + mu / (I + A_inf) = 0,   mu = int K(t - s) x'(s) ds
 
-with the ship at rest before the release. K comes from :mod:`.transfer_function`, so that mu is the output of a small
-linear system that is integrated beside the motion. b1, b2, b3 are what viscosity adds to the radiation.
+K comes from :mod:`.transfer_function`, so that mu is the output of a small linear system that is integrated beside the
+motion. b1, b2, b3 are what viscosity adds to the radiation. The memory is empty when the ship was at rest before the
+first time; waves of an earlier motion are put in as the state that :func:`memory_state` finds from its record.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from itertools import pairwise
 
 import numpy as np
-from numba import njit
 
 from ..core.errors import FitError
-from .equation import DIVERGED, STEPS_A_PERIOD
+from .equation import GRADIENTS, STEPS_A_PERIOD, STRAIGHT, integrate_decay
+from .restoring_curve import RestoringCurve
 from .term_values import rising_times, term_values
 from .transfer_function import TransferFunction
 
 # Runge-Kutta of fourth order resolves a pole when its product with the step is below this.
 _POLE_STEP = 0.2
-
-
-@njit(cache=True, error_model="numpy", nogil=True)
-def _rates(
-    y: np.ndarray, k: np.ndarray, c: np.ndarray, top: np.ndarray, bottom: np.ndarray, inertia: float
-) -> None:
-    """Right-hand side: position, velocity, and the memory in controllable canonical form."""
-    x, v = y[0], y[1]
-    n = top.size
-    force = 0.0
-    chain = v
-    for j in range(n):
-        force += top[j] * y[2 + j]
-        chain -= bottom[j + 1] * y[2 + j]
-    x2 = x * x
-    k[0] = v
-    k[1] = -(c[0] + c[1] * abs(v) + c[2] * v * v) * v - (c[3] + c[4] * x2 + c[5] * x2 * x2) * x - force / inertia
-    k[2] = chain
-    for j in range(1, n):
-        k[2 + j] = y[1 + j]
-
-
-@njit(cache=True, error_model="numpy", nogil=True)
-def integrate_memory_decay(
-    time: np.ndarray,
-    start: np.ndarray,
-    coefficients: np.ndarray,
-    top: np.ndarray,
-    bottom: np.ndarray,
-    inertia: float,
-    longest: float,
-) -> np.ndarray:
-    """Position and velocity at the times, shape (n, 2); rows after a divergence are nan.
-
-    Parameters
-    ----------
-    time : ndarray, shape (n,)
-    start : ndarray, shape (2,)
-    coefficients : ndarray, shape (6,)
-    top, bottom : ndarray, shapes (m,) and (m + 1,)
-        Numerator and denominator of the memory, highest power first.
-    inertia : float
-        I + A_inf.
-    longest : float
-        Longest step in s.
-    """
-    width = 2 + top.size
-    path = np.full((time.size, 2), np.nan)
-    y, trial = np.zeros(width), np.zeros(width)
-    k1, k2, k3, k4 = np.zeros(width), np.zeros(width), np.zeros(width), np.zeros(width)
-    y[0], y[1] = start[0], start[1]
-    path[0] = start
-    for i in range(1, time.size):
-        interval = time[i] - time[i - 1]
-        steps = max(math.ceil(interval / longest), 1)
-        h = interval / steps
-        for _ in range(steps):
-            _rates(y, k1, coefficients, top, bottom, inertia)
-            for j in range(width):
-                trial[j] = y[j] + 0.5 * h * k1[j]
-            _rates(trial, k2, coefficients, top, bottom, inertia)
-            for j in range(width):
-                trial[j] = y[j] + 0.5 * h * k2[j]
-            _rates(trial, k3, coefficients, top, bottom, inertia)
-            for j in range(width):
-                trial[j] = y[j] + h * k3[j]
-            _rates(trial, k4, coefficients, top, bottom, inertia)
-            for j in range(width):
-                y[j] += h / 6.0 * (k1[j] + 2.0 * k2[j] + 2.0 * k3[j] + k4[j])
-        if not abs(y[0]) < DIVERGED:
-            break
-        path[i, 0], path[i, 1] = y[0], y[1]
-    return path
 
 
 def simulate_memory_decay(
@@ -104,26 +33,35 @@ def simulate_memory_decay(
     coefficients: Mapping[str, float],
     memory: TransferFunction,
     inertia: float,
+    *,
+    state: np.ndarray | None = None,
+    curve: RestoringCurve | None = None,
+    sensitivities: bool = False,
 ) -> np.ndarray:
     """Free decay with radiation memory.
 
     Parameters
     ----------
     time : ndarray, shape (n,)
-        Rising times in s; the ship was held at rest before the first.
+        Rising times in s.
     start : tuple of float
         Coordinate in rad or m, and velocity, at the first time.
     coefficients : mapping of str to float
         Some of b1, b2, b3, c1, c3, c5 per unit of `inertia`; the others are zero.
     memory : TransferFunction
-        K of the same motion, SI.
+        K of the same motion, SI, of order m.
     inertia : float
         I + A_inf in kg m2 (heave: kg).
+    state : ndarray, shape (m,), optional
+        States of the memory at the first time; zero, for a ship that was held at rest, when not given.
+    curve : RestoringCurve, optional
+    sensitivities : bool
+        Also the gradients of coordinate and velocity by b1, b2, b3, c1, c3, c5, the two initial values, the inertia.
 
     Returns
     -------
-    ndarray, shape (n, 2)
-        Coordinate and velocity.
+    ndarray, shape (n, 2) or (n, 20)
+        Coordinate and velocity, then pairs of their gradients. Rows after a divergence are nan.
 
     Raises
     ------
@@ -133,15 +71,54 @@ def simulate_memory_decay(
     instants, values = rising_times(time), term_values(coefficients)
     if not (values[3] > 0.0 and inertia > 0.0):
         raise FitError("a decay needs a positive c1 and inertia", cure="check their signs and units")
+    begin = np.concatenate([start, np.zeros(memory.order) if state is None else state])
+    last, cubic = (1.0, STRAIGHT) if curve is None else (curve.last, curve.cubic)
     fastest = max(float(np.abs(memory.poles).max()), 1e-12)
     longest = min(2.0 * math.pi / math.sqrt(values[3]) / STEPS_A_PERIOD, _POLE_STEP / fastest)
     with np.errstate(over="ignore", invalid="ignore"):
-        return integrate_memory_decay(
+        return integrate_decay(
             instants,
-            np.array(start, dtype=float),
+            begin,
             values,
+            float(last),
+            cubic,
             memory.numerator,
             memory.denominator,
             float(inertia),
             longest,
+            GRADIENTS + 1 if sensitivities else 0,
         )
+
+
+def memory_state(time: np.ndarray, value: np.ndarray, memory: TransferFunction) -> np.ndarray:
+    """States of the memory at the last time of a motion that began at rest, shape (m,).
+
+    The velocity is not needed: with ``z = w + b x`` the system ``z' = A z + b x'`` becomes ``w' = A w + A b x``, which
+    is solved exactly for a coordinate that is straight between its samples.
+
+    Parameters
+    ----------
+    time : ndarray, shape (n,)
+        Uniform, s.
+    value : ndarray, shape (n,)
+        Coordinate in rad or m; a constant rest position does not matter.
+    memory : TransferFunction
+    """
+    from scipy.linalg import expm
+
+    t, x = np.asarray(time, dtype=float), np.asarray(value, dtype=float)
+    a, b, _ = memory.state_space()
+    n = memory.order
+    if t.size < 2:
+        return np.zeros(n)
+    step = float((t[-1] - t[0]) / (t.size - 1))
+    # Exponential of the system with its input and the input's slope as further states.
+    wide = np.zeros((n + 2, n + 2))
+    wide[:n, :n], wide[:n, n] = a * step, a @ b * step
+    wide[n, n + 1] = 1.0
+    whole = expm(wide)
+    keep, by_value, by_change = whole[:n, :n], whole[:n, n], whole[:n, n + 1]
+    w = -b * x[0]
+    for before, after in pairwise(x):
+        w = keep @ w + by_value * before + by_change * (after - before)
+    return np.asarray(w + b * x[-1])

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from ..core.errors import FitError
+from .coloured_noise import ColouredNoise
 from .damping_models import DAMPING_TERMS, DampingModel, split_speed_term
 from .decay_record import DecayRecord
 from .derivation_fit import derive, fit_equation
@@ -58,9 +58,14 @@ class Shooting:
         self.known = np.array([model.fixed.get(name, 0.0) for name in model.names])
         self.first = [first_values(one) for one in self.records]
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the shared parameters."""
+        return self.model.free
+
     def initial(self, values: Mapping[str, float]) -> np.ndarray:
         """Parameters from values of the free terms, the first values of the records, and no offsets."""
-        shared = [values[name] for name in self.model.free]
+        shared = [values[name] for name in self.names]
         own = [np.array([*first, 0.0])[np.array(self.own, dtype=int) - 6] for first in self.first]
         return np.concatenate([np.array(shared, dtype=float), *own])
 
@@ -78,6 +83,14 @@ class Shooting:
             state[np.array(self.own) - 6] = parameters[begin : begin + len(self.own)]
         return state
 
+    def simulate(self, parameters: np.ndarray, record: int) -> Simulated | None:
+        """A record simulated with its gradients; None where the motion diverges or nothing restores."""
+        values = self.coefficients(parameters, record)
+        if not (np.isfinite(values).all() and values[3] > 0.0):
+            return None
+        x0, v0, rest = self.state(parameters, record)
+        return simulate_record(self.records[record], self.model, values, (x0, v0), rest)
+
     def gradient(self, simulated: Simulated, record: int) -> np.ndarray:
         """Gradient of a record by the shared terms and its own values, shape (n, q)."""
         terms = simulated.gradient[:, :6] @ self.spread[record][:, self.free]
@@ -89,11 +102,7 @@ class Shooting:
         size = self.shared + own * len(self.records)
         triangles, rights, cost, paths = [], [], 0.0, []
         for k, record in enumerate(self.records):
-            values = self.coefficients(parameters, k)
-            if not (np.isfinite(values).all() and values[3] > 0.0):
-                return None
-            x0, v0, rest = self.state(parameters, k)
-            simulated = simulate_record(record, self.model, values, (x0, v0), rest)
+            simulated = self.simulate(parameters, k)
             if simulated is None:
                 return None
             residual = record.value - simulated.value
@@ -230,36 +239,72 @@ def fit_integration(
         )
     label, best, converged = min(found, key=lambda one: one[1].cost)
     agreeing = sum(one[1].cost <= best.cost * (1.0 + SAME_COST) + 1e-24 for one in found)
-    return _result(
-        problem,
-        best,
-        converged,
-        {"start": label, "starts": len(found), "starts that agree": agreeing},
-        {"initial values": start, "offset": offset, "residuals": "white" if white else "autocorrelated"},
-        white,
+    end = linearised(problem, best, white=white)
+    return assess(
+        "integration",
+        runs,
+        chosen,
+        dict(zip(chosen.free, map(float, best.parameters))),
+        end.covariance,
+        end.runs,
+        end.noise,
+        converged=converged,
+        condition=end.condition,
+        details={"start": label, "starts": len(found), "starts that agree": agreeing},
+        choices={"initial values": start, "offset": offset, "residuals": "white" if white else "autocorrelated"},
     )
 
 
-def _result(
-    problem: Shooting,
-    best: Point,
-    converged: bool,
-    details: Mapping[str, Any],
-    choices: Mapping[str, Any],
-    white: bool,
-) -> RollDamping:
+@dataclass(frozen=True, eq=False)
+class Linearised:
+    """The end of a search: the records simulated there, and what their noise does to the shared parameters.
+
+    Attributes
+    ----------
+    runs : tuple of FittedRun
+    noise : ColouredNoise
+    covariance : ndarray, shape (q, q)
+        Of the shared parameters.
+    condition : float
+        Condition number of the scaled problem.
+    """
+
+    runs: tuple[FittedRun, ...]
+    noise: ColouredNoise
+    covariance: np.ndarray
+    condition: float
+
+
+def linearised(problem: Shooting, best: Point, *, white: bool = False) -> Linearised:
+    """Covariance of the shared parameters where a search ended.
+
+    Parameters
+    ----------
+    problem : Shooting
+    best : Point
+    white : bool
+        Take the residuals for independent.
+
+    Raises
+    ------
+    FitError
+        If the records cannot separate the parameters.
+    """
     count, own = problem.shared, len(problem.own)
     norms = np.linalg.norm(best.triangle, axis=0)
     singular = np.linalg.svd(best.triangle / np.where(norms > 0.0, norms, 1.0), compute_uv=False)
     condition = float(singular[0] / singular[-1]) if singular[-1] > 0.0 else np.inf
     if not condition < 1e12:
         raise FitError(
-            f"the record cannot separate {', '.join(problem.model.free)} (condition number {condition:.2g})",
+            f"the record cannot separate {', '.join(problem.names)} (condition number {condition:.2g})",
             cure="use fewer terms, or a record with a larger span of amplitudes",
             file=problem.records[0].source or None,
             place=problem.records[0].name,
         )
-    inverse = np.linalg.pinv(best.triangle.T @ best.triangle, hermitian=True)
+    # Columns of length one: the unknowns differ by many powers of ten.
+    scale = 1.0 / np.where(norms > 0.0, norms, 1.0)
+    scaled = best.triangle * scale
+    inverse = np.linalg.pinv(scaled.T @ scaled, hermitian=True) * np.outer(scale, scale)
     simulated, influences, gradients = [], [], []
     for k, (record, path) in enumerate(zip(problem.records, best.simulated)):
         x0, v0, rest = problem.state(best.parameters, k)
@@ -279,16 +324,4 @@ def _result(
         influences.append(inverse[:count][:, columns] @ gradients[-1].T)
     noise = record_noise(problem.records, simulated, gradients, left_over=False)
     covariance = noise.white_floor(influences) if white else noise.covariance(influences)
-    return assess(
-        "integration",
-        problem.records,
-        problem.model,
-        dict(zip(problem.model.free, map(float, best.parameters[:count]))),
-        covariance,
-        simulated,
-        noise,
-        converged=converged,
-        condition=condition,
-        details=details,
-        choices=choices,
-    )
+    return Linearised(tuple(simulated), noise, covariance, condition)

@@ -21,7 +21,7 @@ from ..identify.linear_fit import LinearFit
 from ..identify.lssvm_curve import LSSVMCurve, fit_lssvm_curve, is_uniform
 from .damping_models import DampingModel
 from .decay_record import DecayRecord
-from .derivation_fit import Derived, averaging_window, fit_equation
+from .derivation_fit import Derived, averaging_window, fit_equation, resimulated_design
 from .fit_assessment import as_records, assess_influences, require_speeds
 from .resimulation import resimulate
 from .roll_damping import RollDamping
@@ -165,7 +165,9 @@ def _solve(
     if options.instruments:
         # Twice: the first re-simulation still has the terms that noise has biased.
         for _ in range(2):
-            clean = _resimulated_design(linear, records, derived, model, values)
+            everything = model.complete(values)
+            motions = [resimulate(one, model, model.spread(one.speed) @ everything)[1] for one in records]
+            clean = resimulated_design(linear, records, derived, model, motions)
             values, solver = _estimate(clean, linear, model)
     return values, solver, derived
 
@@ -198,26 +200,6 @@ def _estimate(
     """Free terms, and what a unit error of each row of the equation does to them, shape (q, m)."""
     solver = np.linalg.solve(instruments.T @ linear.design, instruments.T)[: len(model.free)]
     return dict(zip(model.free, (solver @ linear.response).tolist())), solver
-
-
-def _resimulated_design(
-    linear: LinearFit,
-    records: Sequence[DecayRecord],
-    derived: Sequence[Derived],
-    model: DampingModel,
-    values: dict[str, float],
-) -> np.ndarray:
-    """The design with the motion that the fitted terms give in place of the measured one, shape as the design."""
-    everything = model.complete(values)
-    clean = linear.design.copy()
-    places = [model.names.index(name) for name in model.free]
-    begin = 0
-    for record, one in zip(records, derived):
-        _, motion = resimulate(record, model, model.spread(record.speed) @ everything)
-        rows = one.seen(model.columns(motion.motion, motion.rate, record.speed))[:, places]
-        clean[begin : begin + len(rows), : len(places)] = rows
-        begin += len(rows)
-    return clean
 
 
 def _influence(

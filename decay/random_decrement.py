@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 FEWEST_PIECES = 100
+BLOCKS = 16
+"""Blocks of a record that are left out one at a time for the standard errors."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +69,7 @@ def random_decrement(
     *,
     level: float | None = None,
     cycles: float = 4.0,
-    blocks: int = 16,
+    blocks: int = BLOCKS,
 ) -> RandomDecrement:
     """Signature of a record at sea and the linear decay in it.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +14,7 @@ from ..core.findings import Finding
 from ..core.provenance import Provenance
 from ..core.ship import Ship
 from ..identify.coefficient_table import CoefficientTable
-from .damping_models import MOTION_UNITS, DampingModel, split_speed_term, term_powers, term_unit
+from .damping_models import MOTION_UNITS, DampingModel, term_powers, term_unit
 from .equivalent_damping import (
     BERTIN_ANGLES,
     EquivalentDamping,
@@ -170,13 +170,17 @@ class RollDamping(CoefficientTable):
         chosen = self.confidence if level is None else level
         if not 0.0 < chosen < 1.0:
             raise FitError(f"the confidence level {chosen} is not between 0 and 1", cure="use for example 0.95")
-        alpha, omega, gradient = equivalent_linear(self.coefficients(speed), a, self.model.curve)
-        by_parameter = gradient @ self.model.spread(speed)
+        alpha, omega, by_parameter = self._equivalent_linear(a, speed)
         variance = np.einsum("ij,jk,ik->i", by_parameter, self.cov, by_parameter)
         sd = np.sqrt(np.maximum(variance, 0.0))
         half = stdtrit(float(np.min(self.t_dof)), 0.5 + 0.5 * chosen) * sd
         inside = (a >= 0.999 * low) & (a <= 1.001 * high)
         return EquivalentDamping(a, omega, alpha, sd, alpha - half, alpha + half, inside, chosen, self.motion)
+
+    def _equivalent_linear(self, amplitude: np.ndarray, speed: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Equivalent damping and frequency at amplitudes, and the gradient of the damping by all coefficients."""
+        alpha, omega, gradient = equivalent_linear(self.coefficients(speed), amplitude, self.model.curve)
+        return alpha, omega, gradient @ self.model.spread(speed)
 
     def extinction(self, *, degrees: bool = False) -> pd.DataFrame:
         """Coefficients a, b, c of the extinction curve that these terms give to first order, with standard errors.
@@ -265,45 +269,9 @@ class RollDamping(CoefficientTable):
         scale : float
             New scale; 1 for full scale.
         """
-        if not scale > 0.0:
-            raise FitError(f"the scale {scale} is not positive", cure="give 1 for full scale, 68 for a model 1:68")
-        length = self.scale / scale
-        time = np.sqrt(length)
-        x = length if self.motion == "heave" else 1.0
-        factor = np.empty(len(self.names))
-        for i, name in enumerate(self.names):
-            angle_power, time_power = term_powers(name)
-            factor[i] = x**angle_power * time**time_power / time ** split_speed_term(name)[1]
-        runs = tuple(
-            replace(
-                run,
-                time=run.time * time,
-                measured=run.measured * x,
-                fitted=run.fitted * x,
-                start=(run.start[0] * x, run.start[1] * x / time),
-                offset=run.offset * x,
-                speed=run.speed * time,
-            )
-            for run in self.runs
-        )
-        fit = self.diagnostics
-        fixed = {name: value * factor[self.names.index(name)] for name, value in self.model.fixed.items()}
-        return replace(
-            self,
-            params=self.params * factor,
-            cov=self.cov * np.outer(factor, factor),
-            model=replace(self.model, fixed=fixed),
-            scale=scale,
-            ship=None if self.ship is None else self.ship.at_scale(scale),
-            runs=runs,
-            diagnostics=replace(
-                fit,
-                noise=fit.noise * x,
-                noise_time=fit.noise_time * time,
-                amplitudes=(fit.amplitudes[0] * x, fit.amplitudes[1] * x),
-            ),
-            provenance=self.provenance.and_then(f"Froude's law from scale {self.scale:g} to {scale:g}"),
-        )
+        from .froude_damping import damping_at_scale
+
+        return damping_at_scale(self, scale)
 
     def table(self) -> pd.DataFrame:
         """Rows ``method, model, name, value, std, lower95, upper95, unit``; the limits' level is the fit's own."""

@@ -14,11 +14,16 @@ if TYPE_CHECKING:
     from .channels import Channel, ChannelMap, rotate_to_model
     from .condition import read_condition
     from .delimited import Dialect, read_delimited, sniff
+    from .growing_log import GrowingLog
     from .hdf5 import read_hdf5
+    from .log_blocks import LogBlocks
+    from .log_files import iter_solver_log, read_log_blocks
     from .matlab import read_matlab
     from .raw_table import RawTable
     from .read import FORMATS, read_table
     from .simman import SIMMAN_CHANNELS, read_simman, write_simman
+    from .solver_case import read_solver_case, read_solver_log
+    from .solver_log import EmptyLogError, LogKind, Restart, SolverCase, SolverLog
     from .spreadsheet import read_spreadsheet
     from .stream import iter_records
     from .tdms import read_tdms
@@ -29,15 +34,26 @@ _HOMES = {
     "ChannelMap": "channels",
     "Dialect": "delimited",
     "FORMATS": "read",
+    "EmptyLogError": "solver_log",
+    "GrowingLog": "growing_log",
+    "LogBlocks": "log_blocks",
+    "LogKind": "solver_log",
     "RawTable": "raw_table",
+    "Restart": "solver_log",
     "SIMMAN_CHANNELS": "simman",
+    "SolverCase": "solver_log",
+    "SolverLog": "solver_log",
     "atomic_path": "write",
     "iter_records": "stream",
+    "iter_solver_log": "log_files",
     "read_condition": "condition",
     "read_delimited": "delimited",
     "read_hdf5": "hdf5",
+    "read_log_blocks": "log_files",
     "read_matlab": "matlab",
     "read_simman": "simman",
+    "read_solver_case": "solver_case",
+    "read_solver_log": "solver_case",
     "read_spreadsheet": "spreadsheet",
     "read_table": "read",
     "read_tdms": "tdms",
@@ -53,14 +69,25 @@ __all__ = [
     "Channel",
     "ChannelMap",
     "Dialect",
+    "EmptyLogError",
+    "GrowingLog",
+    "LogBlocks",
+    "LogKind",
     "RawTable",
+    "Restart",
+    "SolverCase",
+    "SolverLog",
     "atomic_path",
     "iter_records",
+    "iter_solver_log",
     "read_condition",
     "read_delimited",
     "read_hdf5",
+    "read_log_blocks",
     "read_matlab",
     "read_simman",
+    "read_solver_case",
+    "read_solver_log",
     "read_spreadsheet",
     "read_table",
     "read_tdms",

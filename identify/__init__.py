@@ -3,7 +3,14 @@
 ============================  =========================================================================
 ``autocorrelation``           means and noise densities of autocorrelated records
 ``autoregression``            the autoregressive noise model behind them
-``steady_window``             transient, averaging window, stationarity
+``steady_window``             averaging window of a towed run
+``transient``                 where the start-up transient ends
+``stationarity``              trend test, drift that is still to come
+``settling``                  has a run settled: verdict, cut, mean with its error
+``batch_means``               means of separate stretches, running mean
+``cycle_convergence``         periodic runs cycle by cycle, phase average
+``divergence``                has a computation blown up
+``even_time``                 records with a varying time step
 ``harmonic_projection``       harmonic basis, factorised once for many channels
 ``frequency``                 frequency of a motion by variable projection
 ``harmonics``                 mean and harmonics over whole or broken cycles, phases against the motion
@@ -23,8 +30,9 @@
 ``sklearn_face``              all of these regressions as a scikit-learn estimator
 ============================  =========================================================================
 
-Names are loaded when they are first used, so that a program pays only for what it needs. The function
-:func:`.steady_window.steady_window` shares its name with its module and is imported from there.
+Names are loaded when they are first used, so that a program pays only for what it needs. A function that shares its
+name with its module (``steady_window``, ``stationarity``, ``batch_means``, ``cycle_convergence``) is imported from
+there.
 """
 
 from __future__ import annotations
@@ -82,7 +90,14 @@ _HOMES = {
         "propagate_bias",
     ),
     "sklearn_face": ("TermRegressor",),
-    "steady_window": ("Stationarity", "WindowChoice", "is_stationary", "stationarity"),
+    "batch_means": ("BatchMeans", "running_mean"),
+    "cycle_convergence": ("CycleConvergence", "PhaseAverage", "phase_average"),
+    "divergence": ("divergence_row",),
+    "even_time": ("EvenRecord", "even_record"),
+    "settling": ("ChannelSettling", "Settling", "natural_frequency", "settle"),
+    "stationarity": ("RemainingDrift", "Stationarity", "is_stationary", "remaining_drift"),
+    "steady_window": ("WindowChoice",),
+    "transient": ("TransientCut", "transient_cut", "transient_ends"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

@@ -1,4 +1,4 @@
-"""The campaigns that come with the package: published points, and a virtual PMM campaign that it generates."""
+"""The campaigns that come with the package: published points, and virtual PMM campaigns that it generates."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from .virtual_campaign import synthesize
 
 POINTS = "dtc-static-drift"
 PMM = "dtmb5512-virtual-pmm"
+MANOEUVRES = "kvlcc2-virtual-manoeuvres"
 
 _TABLE = "dtc-drift-points-63"
 
@@ -46,6 +47,21 @@ N = "N_EFD"
 [fit]
 model = "mmg-drift"
 candidates = ["R0 Xvv Yv Yvvv Nv", "R0 Xvv Yv Yv|v| Nv Nv|v|"]
+"""
+
+
+_SAIL_TEXT = """
+# The fitted set is sailed with the propeller, the rudder and the steering gear of the named ship.
+# Draws: of the fitted covariance, and of the coefficients of propeller and rudder with this scatter.
+[simulate]
+ship_from = "kvlcc2"
+manoeuvres = ["turning 35", "zigzag 10/10", "zigzag 20/20"]
+draws = 200
+percent = 5
+seed = 2
+
+[output]
+series_in_report = 2
 """
 
 
@@ -101,3 +117,28 @@ def write_pmm_campaign(
         overwrite=True,
         progress=progress,
     )
+
+
+def write_manoeuvres_campaign(
+    folder: Path, *, seed: int = 2, progress: Callable[[str, int, int], None] | None = None
+) -> Path:
+    """Virtual campaign of the KVLCC2 model whose fitted set is sailed; returns the campaign file.
+
+    The derivatives behind it are the published MMG set (Yasukawa and Yoshimura 2015). Forces carry 4 % AR(1) noise.
+    A fit of all runs, draws from its covariance, a turning circle and two zig-zags to starboard follow.
+    """
+    truth = load_set("kvlcc2")
+    file = synthesize(
+        truth,
+        standard_matrix("general", truth.ship, 1.18),
+        folder,
+        name="KVLCC2 model L7, sailed (virtual)",
+        noise=Noise(ar1=0.04, rho=0.9, seed=seed),
+        laboratory=Laboratory(conventions=Conventions(angle_unit="deg"), sampling_rate=10.0),
+        digits=6,
+        overwrite=True,
+        progress=progress,
+    )
+    with atomic_path(file) as temporary:
+        temporary.write_text(file.read_text(encoding="utf-8") + _SAIL_TEXT, encoding="utf-8")
+    return file

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..core.derivative_set import DerivativeSet
 from ..core.derivative_table import digits_for, unit_line
-from ..core.errors import ConventionError
-from ..core.ship import Ship
-from ..core.terms import Factor
+from ..verify.matched_derivatives import match_derivatives
 from ..verify.scores import quality_and_bias, score_table
-from .set_table import ShipNotGiven, read_set
+from .set_table import read_set, with_ship
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -27,6 +24,7 @@ COLUMNS = (
     "A_std",
     "B",
     "B_std",
+    "B-A",
     "(B-A)/A [%]",
     "(A-B)/A [%]",
     "|B-A|/|A| [%]",
@@ -68,22 +66,19 @@ def compare_sets(a: DerivativeSet, b: DerivativeSet) -> pd.DataFrame:
     import pandas as pd
 
     notes: list[str] = []
-    a, b = _with_ship(a, b.ship, "A", notes), _with_ship(b, a.ship, "B", notes)
-    first, second = _in_one_convention(a, b, notes)
-    ours = {_key(first, i): i for i in range(len(first))}
-    theirs = {_key(second, i): i for i in range(len(second))}
-    common = [key for key in ours if key in theirs]
-    if not common:
-        raise ConventionError(
-            f"'{a.name}' and '{b.name}' have no derivative in common",
-            cure="compare sets of the same model, or convert the sway variable (v or drift-angle)",
+    first, second = with_ship(a, b.ship), with_ship(b, a.ship)
+    for which, given, known in (("A", a, first), ("B", b, second)):
+        if known is not given:
+            notes.append(f"{which} does not say its ship: taken as {known.ship.name}")
+    matched = match_derivatives(first, second)
+    if matched.turned_because:
+        notes.append(
+            f"A was converted to the conventions of B, because B cannot be converted: {matched.turned_because}"
         )
-    names = [first.names[ours[key]] for key in common]
-    rows_a, rows_b = [ours[key] for key in common], [theirs[key] for key in common]
-    # R0 of one may meet X0 of the other
-    sign = np.array([first.terms[i].sign * second.terms[j].sign for i, j in zip(rows_a, rows_b, strict=True)])
-    reference, reference_sd = first.values[rows_a], first.bse.to_numpy(float)[rows_a]
-    judged, judged_sd = sign * second.values[rows_b], second.bse.to_numpy(float)[rows_b]
+    first, second, names = matched.set_a, matched.set_b, list(matched.names)
+    reference, judged = matched.a, matched.b
+    reference_sd = np.sqrt(np.diag(matched.a_covariance))
+    judged_sd = np.sqrt(np.diag(matched.b_covariance))
     table = score_table(
         dict(zip(names, judged, strict=True)),
         dict(zip(names, reference, strict=True)),
@@ -98,6 +93,7 @@ def compare_sets(a: DerivativeSet, b: DerivativeSet) -> pd.DataFrame:
             "A_std": table["sd_b"],
             "B": table["a"],
             "B_std": table["sd_a"],
+            "B-A": table["difference"],
             "(B-A)/A [%]": table["s_minus_d"],
             "(A-B)/A [%]": table["d_minus_s"],
             "|B-A|/|A| [%]": table["absolute"],
@@ -105,8 +101,7 @@ def compare_sets(a: DerivativeSet, b: DerivativeSet) -> pd.DataFrame:
             "verdict": [_verdict(z, note) for z, note in zip(table["z"], table["note"], strict=True)],
         }
     )
-    only_a = [first.names[i] for key, i in ours.items() if key not in theirs]
-    only_b = [second.names[i] for key, i in theirs.items() if key not in ours]
+    only_a, only_b = list(matched.only_a), list(matched.only_b)
     frame = pd.concat([frame, _alone(first, only_a, "A"), _alone(second, only_b, "B")], ignore_index=True)[
         list(COLUMNS)
     ]
@@ -129,48 +124,6 @@ def compare_sets(a: DerivativeSet, b: DerivativeSet) -> pd.DataFrame:
         "notes": [*notes, *score.notes],
     }
     return frame
-
-
-_Key = tuple[str, tuple[Factor, ...]]
-
-
-def _key(derivatives: DerivativeSet, index: int) -> _Key:
-    term = derivatives.terms[index]
-    return term.component, term.factors
-
-
-def _with_ship(derivatives: DerivativeSet, other: Ship, which: str, notes: list[str]) -> DerivativeSet:
-    """The set with the ship of the other one, when its own table names none."""
-    if not isinstance(derivatives.ship, ShipNotGiven) or isinstance(other, ShipNotGiven):
-        return derivatives
-    notes.append(f"{which} does not say its ship: taken as {other.name}")
-    return replace(derivatives, ship=other)
-
-
-def _in_one_convention(
-    a: DerivativeSet, b: DerivativeSet, notes: list[str]
-) -> tuple[DerivativeSet, DerivativeSet]:
-    try:
-        return a, _converted(b, a)
-    except ConventionError as error:
-        try:
-            turned = _converted(a, b)
-        except ConventionError:
-            raise ConventionError(
-                f"'{b.name}' cannot be brought into the conventions of '{a.name}': {error.cause}", cure=error.cure
-            ) from None
-        notes.append(f"A was converted to the conventions of B, because B cannot be converted: {error.cause}")
-        return turned, b
-
-
-def _converted(derivatives: DerivativeSet, like: DerivativeSet) -> DerivativeSet:
-    """A set in the conventions of another; dimensional values also at its scale."""
-    scalings = {derivatives.conventions.force_scaling, like.conventions.force_scaling}
-    if "dimensional" in scalings and derivatives.ship.scale != like.ship.scale:
-        derivatives = derivatives.at_scale(like.ship.scale, rho=like.ship.rho)
-    # non-dimensional values are the same for model and ship
-    conventions = derivatives.conventions.but(scale=like.conventions.scale)
-    return replace(derivatives, conventions=conventions).to(like.conventions)
 
 
 def _alone(derivatives: DerivativeSet, names: list[str], which: str) -> pd.DataFrame:
@@ -212,7 +165,7 @@ def comparison_text(comparison: pd.DataFrame) -> str:
     """
     facts = comparison.attrs
     rows = [
-        ["name", "A", "std A", "B", "std B", "(B-A)/A %", "(A-B)/A %", "|B-A|/|A| %", "z", "verdict"],
+        ["name", "A", "std A", "B", "std B", "B-A", "(B-A)/A %", "(A-B)/A %", "|B-A|/|A| %", "z", "verdict"],
         *(comparison_cells(row) for row in comparison.itertuples(index=False)),
     ]
     widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
@@ -245,14 +198,15 @@ def comparison_totals(comparison: pd.DataFrame) -> list[str]:
 
 def comparison_cells(row: Any) -> list[str]:
     """Text of one row of the comparison, with the digits that the uncertainty supports."""
-    name, a, a_std, b, b_std, first, second, third, z, verdict = row
-    cells = []
+    name, a, a_std, b, b_std, error, first, second, third, z, verdict = row
+    cells, places = [], 0
     for value, std in ((a, a_std), (b, b_std)):
         places = digits_for(value, std) if math.isfinite(value) else 0
         cells += [f"{number:.{places}f}" if math.isfinite(number) else "" for number in (value, std)]
     return [
         str(name),
         *cells,
+        f"{error:+.{places}f}" if math.isfinite(error) else "",
         _signed(first),
         _signed(second),
         f"{third:.1f}" if math.isfinite(third) else "",

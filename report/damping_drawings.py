@@ -8,22 +8,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..decay.decay_analysis import DecayGroup
+from ..decay.decay_results import DecayGroup
 from ..decay.equivalent_damping import EquivalentDamping, equivalent_linear
 from ..decay.term_values import term_values
 from .damping_figures import (
     coefficient_ellipse,
     decay_record_figure,
     decay_residual_figure,
+    drawn,
     equivalent_damping_figure,
     extinction_figure,
     ikeda_figure,
 )
+from .damping_memory import draw_memory
 from .drawings import Drawing
-from .figure_style import Sheet, inline_svg, new_axes
+from .figure_style import Sheet, new_axes
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    pass
 
 MOST_RECORDS = 12
 """Records of a group that are drawn one by one."""
@@ -42,6 +44,7 @@ class DampingDrawings:
     others: tuple[Drawing, ...]
     ellipse: Drawing | None
     ikeda: Drawing | None
+    memory: tuple[Drawing, ...] = ()
 
 
 def draw_group(group: DecayGroup, prefix: str, truth: Mapping[str, float]) -> DampingDrawings:
@@ -58,7 +61,7 @@ def draw_group(group: DecayGroup, prefix: str, truth: Mapping[str, float]) -> Da
     fit = group.preferred
     count = min(len(group.records), MOST_RECORDS)
     records = tuple(
-        _drawn(
+        drawn(
             decay_record_figure(record, fit, number, ax=new_axes(WIDE)),
             f"{prefix}-record-{number}",
             f"{record.name}. Dotted: start of the free part.",
@@ -66,7 +69,7 @@ def draw_group(group: DecayGroup, prefix: str, truth: Mapping[str, float]) -> Da
         for number, record in enumerate(group.records[:count])
     )
     residuals = tuple(
-        _drawn(
+        drawn(
             decay_residual_figure(fit, number, ax=new_axes((7.2, 1.9))),
             f"{prefix}-residual-{number}",
             f"{fit.runs[number].name}: residual of the {fit.method} fit; band: two standard deviations.",
@@ -77,14 +80,14 @@ def draw_group(group: DecayGroup, prefix: str, truth: Mapping[str, float]) -> Da
     ellipse = None
     if len(free) >= 2:
         pair = (free[-2], free[-1])
-        ellipse = _drawn(
+        ellipse = drawn(
             coefficient_ellipse(fit, pair, truth=truth),
             f"{prefix}-ellipse",
             f"Correlation of {pair[0]} and {pair[1]}: {fit.linear_quadratic_correlation:+.3f}.",
         )
     ikeda = None
     if group.ikeda is not None:
-        ikeda = _drawn(
+        ikeda = drawn(
             ikeda_figure(group.ikeda, ax=Sheet(LARGE).axes),
             f"{prefix}-ikeda",
             "Equivalent damping of the decay with its 95 % band beside the components of the simplified Ikeda formula.",
@@ -92,12 +95,12 @@ def draw_group(group: DecayGroup, prefix: str, truth: Mapping[str, float]) -> Da
     return DampingDrawings(
         records=records,
         residuals=residuals,
-        extinction=_drawn(
+        extinction=drawn(
             extinction_figure(group.records, fit),
             f"{prefix}-extinction",
             "Loss of each half cycle; dotted: below the smallest amplitude of the records.",
         ),
-        equivalent=_drawn(
+        equivalent=drawn(
             equivalent_damping_figure(
                 _equivalents(group, 0), truth=true_damping(group, truth), ax=new_axes(LARGE)
             ),
@@ -105,7 +108,7 @@ def draw_group(group: DecayGroup, prefix: str, truth: Mapping[str, float]) -> Da
             f"{next(iter(group.comparisons))} damping; bands: 95 % intervals.",
         ),
         others=tuple(
-            _drawn(
+            drawn(
                 equivalent_damping_figure(
                     _equivalents(group, place), truth=true_damping(group, truth), ax=new_axes(LARGE)
                 ),
@@ -117,6 +120,7 @@ def draw_group(group: DecayGroup, prefix: str, truth: Mapping[str, float]) -> Da
         ),
         ellipse=ellipse,
         ikeda=ikeda,
+        memory=() if group.memory is None else draw_memory(group.memory, prefix),
     )
 
 
@@ -135,9 +139,3 @@ def true_damping(group: DecayGroup, truth: Mapping[str, float]) -> EquivalentDam
     return EquivalentDamping(
         at, omega, alpha, none, alpha, alpha, np.ones(at.size, dtype=bool), 0.95, group.preferred.motion
     )
-
-
-def _drawn(ax: Axes, name: str, caption: str) -> Drawing:
-    figure = ax.get_figure(root=True)
-    assert figure is not None
-    return Drawing(inline_svg(figure, name, caption), caption)

@@ -14,15 +14,18 @@ from ..decay.equivalent_damping import EquivalentDamping, equivalent_linear, lev
 from ..decay.extinction_curve import extinction_points
 from ..decay.ikeda_comparison import IkedaComparison
 from ..decay.roll_damping import RollDamping
+from .drawings import Drawing
 from .figure_style import (
     BLUE,
     CYCLE,
     INK,
     MUTED,
     ORANGE,
+    PANEL,
     SKY,
     VERMILLION,
     decimated,
+    inline_svg,
     new_axes,
     small_legend,
 )
@@ -37,8 +40,14 @@ METHOD_COLOURS = {
     "curve, then least squares": "#7b5ea7",
     "NLS-SVM": VERMILLION,
     "integration": BLUE,
+    "integration with memory": "#1b3a6b",
+    "random decrement": VERMILLION,
+    "joint fit": BLUE,
 }
 """Colour of each method in every figure."""
+
+SINGLE_POINTS = 8
+"""So few amplitudes are drawn as points with intervals, more as a line with its band."""
 
 COMPONENT_NAMES = ("friction", "wave", "eddy", "bilge_keel", "lift")
 
@@ -46,6 +55,13 @@ COMPONENT_NAMES = ("friction", "wave", "eddy", "bilge_keel", "lift")
 def shown_unit(motion: str) -> tuple[float, str]:
     """Factor from rad or m to what a figure shows, and that unit: degrees or mm."""
     return (1000.0, "mm") if MOTION_UNITS[motion] == "m" else (float(np.degrees(1.0)), "deg")
+
+
+def drawn(ax: Axes, name: str, caption: str) -> Drawing:
+    """A finished figure as inline SVG with its caption; `name` is unique in the page."""
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    return Drawing(inline_svg(figure, name, caption), caption)
 
 
 def decay_record_figure(record: DecayRecord, fit: RollDamping, run: int = 0, *, ax: Axes | None = None) -> Axes:
@@ -113,8 +129,10 @@ def extinction_figure(records: Sequence[DecayRecord], fit: RollDamping, *, ax: A
     """
     ax = ax if ax is not None else new_axes()
     factor, unit = shown_unit(fit.motion)
+    least = 0.0
     for number, record in enumerate(records):
         mean, loss = extinction_points(record)
+        least = min(least, factor * float(loss.min()))
         label = "half cycles" if len(records) == 1 else record.name
         ax.plot(
             factor * mean, factor * loss, "o", color=CYCLE[number % 6], markersize=3.2, alpha=0.85, label=label
@@ -126,7 +144,8 @@ def extinction_figure(records: Sequence[DecayRecord], fit: RollDamping, *, ax: A
     ax.plot(factor * at[inside], factor * loss[inside], color=INK, linewidth=1.3, label=f"{fit.method}")
     ax.plot(factor * at[~inside], factor * loss[~inside], color=INK, linewidth=0.9, linestyle=":")
     ax.set_xlim(0.0, None)
-    ax.set_ylim(0.0, None)
+    # Noise makes losses of small swings negative: they are shown, not cut.
+    ax.set_ylim(1.1 * least, None)
     ax.set_xlabel(f"mean amplitude [{unit}]")
     ax.set_ylabel(f"loss of a half cycle [{unit}]")
     small_legend(ax, loc="upper left")
@@ -166,9 +185,23 @@ def equivalent_damping_figure(
     lows, highs = [], []
     for number, (method, one) in enumerate(results.items()):
         colour = METHOD_COLOURS.get(method, CYCLE[number % 6])
-        band = (factor * one.amplitude, one.alpha_lower, one.alpha_upper)
-        ax.fill_between(*band, color=colour, alpha=0.13, linewidth=0)
-        ax.plot(factor * one.amplitude, one.alpha, color=colour, linewidth=1.4, label=method)
+        if one.amplitude.size <= SINGLE_POINTS:
+            arms = np.vstack([one.alpha - one.alpha_lower, one.alpha_upper - one.alpha])
+            ax.errorbar(
+                factor * one.amplitude,
+                one.alpha,
+                yerr=np.nan_to_num(arms),
+                fmt="o",
+                color=colour,
+                markersize=4.0,
+                linewidth=1.0,
+                capsize=2.5,
+                label=method,
+            )
+        else:
+            band = (factor * one.amplitude, one.alpha_lower, one.alpha_upper)
+            ax.fill_between(*band, color=colour, alpha=0.13, linewidth=0)
+            ax.plot(factor * one.amplitude, one.alpha, color=colour, linewidth=1.4, label=method)
         lows.append(float(np.nanmin(one.alpha)))
         highs.append(float(np.nanmax(one.alpha)))
     if truth is not None:
@@ -220,7 +253,8 @@ def coefficient_ellipse(
     """
     from scipy.special import fdtri
 
-    ax = ax if ax is not None else new_axes()
+    # Long tick labels must not leave the figure on the right.
+    ax = ax if ax is not None else new_axes(PANEL, margins=(0.66, 0.28, 0.46, 0.12))
     places = [fit.position(name) for name in names]
     covariance = fit.cov[np.ix_(places, places)]
     values, axes = np.linalg.eigh(covariance)

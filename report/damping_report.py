@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -12,9 +12,13 @@ from markupsafe import Markup
 
 from ..core.provenance import program_versions
 from ..core.ship import Ship
-from ..decay.decay_analysis import DecayAnalysis, DecayGroup, ship_of
+from ..decay.against_speed import against_speed
+from ..decay.decay_campaign import DecayCampaign
+from ..decay.decay_results import DecayAnalysis, DecayGroup, ship_of
 from ..decay.roll_damping import CONVENTIONS
 from .damping_drawings import DampingDrawings, draw_group
+from .damping_memory import memory_table
+from .damping_speeds import draw_speeds, speed_table
 from .damping_tables import (
     equivalent_table,
     failures_table,
@@ -40,6 +44,8 @@ SECTIONS = {
     "equivalent": "Equivalent damping",
     "extinction": "Extinction curve",
     "verdict": "What can be identified",
+    "speeds": "Against speed",
+    "memory": "Radiation memory",
     "ikeda": "Beside Ikeda",
     "residuals": "Residuals",
     "findings": "Findings",
@@ -65,6 +71,8 @@ class GroupPage:
     ikeda: Table | None
     limits: tuple[str, ...]
     drawn: DampingDrawings
+    memory: Table | None
+    memory_known: str
 
 
 def render_damping_report(
@@ -98,7 +106,11 @@ def render_damping_report(
         progress("drawing", len(groups), len(groups))
     records = [record for group in analysis.groups for record in group.records]
     findings = [item for group in analysis.groups for item in group.all_findings]
-    empty = {"ikeda": all(group.ikeda is None for group in analysis.groups)}
+    empty = {
+        "ikeda": all(group.ikeda is None for group in analysis.groups),
+        "memory": all(group.memory is None for group in analysis.groups),
+        "speeds": len(against_speed(analysis.groups)) == 0,
+    }
     ship = ship_of(analysis)
     page: dict[str, Any] = {
         "heading": analysis.campaign.decay,
@@ -107,13 +119,15 @@ def render_damping_report(
         "particulars": [] if ship is None else particulars([ship], _roll_particulars(ship)),
         "groups": groups,
         "records": records_table(analysis),
+        "speeds": speed_table(analysis.groups),
+        "speed_drawings": draw_speeds(analysis.groups),
         "conventions": CONVENTIONS,
         "method_notes": method_notes(),
         "findings": findings_table(dict.fromkeys(findings)),
-        "choices": _choices(analysis),
+        "choices": choices_table(analysis.campaign, ("reduction", "fit", "ikeda", "memory", "output")),
         "record_steps": [(record.name, record.steps) for record in records],
         "versions": versions_text(program_versions()),
-        "inputs": inputs_table({record.source: record.sha256 for record in records if record.sha256}),
+        "inputs": inputs_table(_inputs(analysis)),
         "sections": {anchor: title for anchor, title in SECTIONS.items() if not empty.get(anchor, False)},
     }
     return page_environment().get_template("damping_report.html.j2").render(page)
@@ -134,20 +148,30 @@ def _group(group: DecayGroup, prefix: str, analysis: DecayAnalysis) -> GroupPage
         ikeda=None if group.ikeda is None else ikeda_table(group.ikeda),
         limits=() if group.ikeda is None else tuple(item.message for item in group.ikeda.findings),
         drawn=draw_group(group, prefix, analysis.truth),
+        memory=None if group.memory is None else memory_table(group.memory),
+        memory_known="" if group.memory is None else group.memory.known,
     )
 
 
-def _choices(analysis: DecayAnalysis) -> Table:
-    """Every setting of the campaign, those that it sets first."""
+def choices_table(campaign: DecayCampaign, sections: Sequence[str]) -> Table:
+    """Every setting of some sections of a campaign, those that it sets first."""
     rows = []
-    for section in ("reduction", "fit", "ikeda", "output"):
-        value = getattr(analysis.campaign, section)
+    for section in sections:
+        value = getattr(campaign, section)
         if value is not None:
-            given = section in analysis.campaign.model_fields_set
+            given = section in campaign.model_fields_set
             rows += setting_rows(section, value, given)
     ordered = [*(row for row in rows if row[2]), *(row for row in rows if not row[2])]
     cells = [(key, text, "set" if given else "default") for key, text, given in ordered]
     return make_table([Column("setting", "code"), Column("value"), Column("by")], cells)
+
+
+def _inputs(analysis: DecayAnalysis) -> dict[str, str]:
+    """Files with their digest: records, and tables of radiation."""
+    records = [record for group in analysis.groups for record in group.records]
+    tables = [group.memory.table for group in analysis.groups if group.memory is not None]
+    digests = {record.source: record.sha256 for record in records} | {one.source: one.sha256 for one in tables}
+    return {source: digest for source, digest in digests.items() if digest}
 
 
 def _roll_particulars(ship: Ship) -> list[Particular]:

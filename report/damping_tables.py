@@ -9,7 +9,7 @@ import numpy as np
 
 from ..decay.compare import METHODS
 from ..decay.damping_models import TERMS
-from ..decay.decay_analysis import DecayAnalysis, DecayGroup, is_dimensional
+from ..decay.decay_results import DecayAnalysis, DecayGroup, is_dimensional
 from ..decay.ikeda_comparison import IkedaComparison
 from ..decay.model_verdict import term_verdicts
 from .damping_figures import shown_unit

@@ -111,7 +111,7 @@ def correlation_map(derivatives: DerivativeSet, *, ax: Axes | None = None) -> Ax
         raise TermError(f"set '{derivatives.name}' has no covariance", cure="fit it, or give one in its file")
     count = len(derivatives)
     if ax is None:
-        side = min(1.4 + 0.24 * count, 7.0)
+        side = min(max(1.4 + 0.24 * count, 4.6), 7.0)
         ax = new_axes((side + 0.2, side), margins=(0.75, 0.2, 0.75, 0.1))
     sd = np.sqrt(np.clip(np.diag(derivatives.covariance), 0.0, None))
     safe = np.where(sd > 0, sd, np.inf)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from matplotlib.axes import Axes
 
-from ..simulate.ensemble import Ensemble
+from ..simulate.ensembles import Ensemble
 from ..simulate.manoeuvring_results import ManoeuvringResults
 from ..simulate.trajectory import Trajectory
 from .figure_style import PANEL, new_axes

@@ -8,7 +8,7 @@ from matplotlib.collections import LineCollection
 
 from ..core.errors import SimulationError
 from ..simulate.criteria import CRITERIA, judged, length_over_speed
-from ..simulate.ensemble import Ensemble
+from ..simulate.ensembles import Ensemble
 from ..simulate.index_definitions import definition_of
 from ..simulate.track_fan import TrackFan
 from .figure_style import BLUE, INK, MUTED, SKY, VERMILLION, new_axes, small_legend
@@ -29,7 +29,7 @@ def trajectory_fan(fan: TrackFan, *, ax: Axes | None = None, tracks: bool = True
     Parameters
     ----------
     fan : TrackFan
-        From :meth:`~towtank.simulate.ensemble.Ensemble.fan`.
+        From :meth:`~towtank.simulate.ensembles.Ensemble.fan`.
     ax : Axes, optional
     tracks : bool
         Draw the single tracks, not the band alone.
@@ -127,7 +127,7 @@ def index_histogram(ensemble: Ensemble, manoeuvre: str, index: str, *, ax: Axes 
     drawn = values[np.isfinite(values)]
     if not len(drawn):
         raise SimulationError(f"no draw has an {index} of {manoeuvre}", cure="see the failures of the ensemble")
-    ax = ax if ax is not None else new_axes()
+    ax = ax if ax is not None else new_axes(margins=(0.66, 0.1, 0.46, 0.3))
     unit = definition_of(index).unit
     limit = criterion_limit(ensemble, manoeuvre, index)
     width = _class_width(drawn)
@@ -155,8 +155,7 @@ def index_histogram(ensemble: Ensemble, manoeuvre: str, index: str, *, ax: Axes 
             ax.plot([], [], color=VERMILLION, linewidth=1.2, linestyle="--", label=text)
     ax.set_xlabel(f"{index}, {manoeuvre}" + (f" [{unit}]" if unit != "-" else ""))
     ax.set_ylabel("draws")
-    ax.margins(y=0.25 if limit is not None else 0.05)
-    small_legend(ax, loc="upper right")
+    small_legend(ax, loc="lower center", bbox_to_anchor=(0.45, 0.99), ncols=2, borderaxespad=0.0)
     return ax
 
 

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 MANOEUVRES_FORMAT = "towtank manoeuvres 1"
 
+NOTHING = 1e-6
+"""An index smaller than this is the error of the integration, and is shown as 0."""
+
 DOTS = 150
 """Dots an inch of the figures."""
 
@@ -156,9 +159,16 @@ def manoeuvres_text(results: ManoeuvringResults) -> str:
     blocks = [head]
     if len(frame):
         # lengths are counted in ship lengths; what they mean is in the page
-        blocks.append(aligned_text(frame, COLUMNS))
+        told = frame.assign(value=frame["value"].where(frame["value"].abs() >= NOTHING, 0.0))
+        blocks.append(aligned_text(told, COLUMNS))
     else:
         blocks.append("manoeuvres without indices: " + ", ".join(one.manoeuvre for one in results.trajectories))
+    return "\n\n".join([*blocks, *verdict_blocks(results)])
+
+
+def verdict_blocks(results: ManoeuvringResults) -> list[str]:
+    """Verdicts, course stability, doubts and failed draws as paragraphs for a terminal."""
+    blocks = []
     imo = results.imo_frame()
     tested = imo[imo["verdict"] != "not tested"]
     if len(tested):
@@ -168,10 +178,11 @@ def manoeuvres_text(results: ManoeuvringResults) -> str:
     steering = results.steering_frame()
     if len(steering):
         blocks.append("course stability and Nomoto's indices\n" + aligned_text(steering, list(steering.columns)))
+    blocks += [f"left out: {line}" for line in steering.attrs["left_out"]]
     blocks += [f"doubt: {line}" for line in results.doubts()]
     if results.ensemble is not None:
         blocks += [
             f"{row['manoeuvre']}: {row['draws']} of {results.ensemble.draws} draws without a result: {row['reason']}"
             for row in results.ensemble.failures.to_dict("records")
         ]
-    return "\n\n".join(blocks)
+    return blocks

@@ -6,9 +6,12 @@ import math
 from itertools import groupby
 from typing import TYPE_CHECKING
 
+from markupsafe import Markup
+
 from ..simulate.index_definitions import definition_of
 from ..simulate.manoeuvre_names import read_manoeuvre_name
 from ..simulate.manoeuvring_results import ManoeuvringResults
+from .manoeuvre_outputs import NOTHING
 from .page_table import Column, Table, make_table
 from .typography import fixed, significant
 
@@ -16,6 +19,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 _UNITS = {"L": "L", "deg": "°", "deg/s": "°/s", "-": "–"}
+_WITH_DEFINITION = Markup('{}<span class="under">{}</span>')
 _VERDICTS = {"pass": "", "fail": "bad", "not reached": "bad", "not tested": ""}
 
 
@@ -36,17 +40,20 @@ def index_tables(results: ManoeuvringResults) -> list[tuple[str, Table]]:
 
 
 def _index_table(frame: pd.DataFrame, names: list[str], *, spread: bool) -> Table:
-    columns = [Column("index", "short"), Column("unit", "short")]
+    # the columns of several manoeuvres with their bands leave no room for another one
+    crowded = spread and len(names) > 1
+    columns = [Column("index", "text" if crowded else "short"), Column("unit", "short")]
     for name in names:
         columns.append(Column(name, "number", "value" + (" ± standard deviation of the draws" if spread else "")))
         if spread:
             columns.append(Column("5 to 95 %", "number", f"quantiles over the draws, {name}"))
-    columns.append(Column("definition"))
+    if not crowded:
+        columns.append(Column("definition"))
     cells = {(row["manoeuvre"], row["index"]): row for row in frame.to_dict("records")}
     rows = []
     for index in frame["index"].unique():
         unit, definition = definition_of(index)
-        row = [index, _UNITS.get(unit, unit)]
+        row = [_WITH_DEFINITION.format(index, definition) if crowded else index, _UNITS.get(unit, unit)]
         for name in names:
             found = cells.get((name, index))
             row += (
@@ -54,13 +61,13 @@ def _index_table(frame: pd.DataFrame, names: list[str], *, spread: bool) -> Tabl
                 if found
                 else (["–", "–"] if spread else ["–"])
             )
-        rows.append([*row, definition])
+        rows.append(row if crowded else [*row, definition])
     return make_table(columns, rows)
 
 
 def _value_cells(value: float, sd: float, low: float, high: float, spread: bool) -> list[str]:
     if not spread:
-        return [significant(value, 4)]
+        return [significant(0.0 if abs(value) < NOTHING else value, 4)]
     if math.isnan(sd):
         return [significant(value, 4), "–"]
     places = _places(sd)
@@ -92,7 +99,8 @@ def steering_table(results: ManoeuvringResults) -> Table:
         ]
         for row in frame.to_dict("records")
     ]
-    return make_table(columns, rows)
+    left_out = frame.attrs["left_out"]
+    return make_table(columns, rows, caption=f"Left out: {'; '.join(left_out)}." if left_out else "")
 
 
 def criteria_table(results: ManoeuvringResults) -> Table:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..core.provenance import program_versions
 from ..pmm.campaign_result import CampaignResult
-from .campaign_manoeuvres import SailedSet, sail_campaign
+from .campaign_manoeuvres import SailedSet, sail_campaign, sailed_provenance
 from .manoeuvre_outputs import manoeuvre_tables
 from .result_folder import Progress, Writer, csv_writer, require_folder, timestamp, write_folder, write_json
 from .set_table import SETS_FORMAT
@@ -35,7 +35,12 @@ COMPARISONS = {
 
 
 def write_results(
-    result: CampaignResult, out: str | Path, *, report: bool | None = None, progress: Progress | None = None
+    result: CampaignResult,
+    out: str | Path,
+    *,
+    report: bool | None = None,
+    sailed: list[SailedSet] | None = None,
+    progress: Progress | None = None,
 ) -> list[Path]:
     """Write everything that a campaign yields.
 
@@ -57,6 +62,8 @@ def write_results(
         Folder of the results; made when it is missing.
     report : bool, optional
         Write ``report.html``; as the campaign file says when not given.
+    sailed : list of SailedSet, optional
+        Manoeuvres of its sets; sailed as the campaign file says when not given.
     progress : callable, optional
         ``progress(what, done, total)``.
 
@@ -73,8 +80,12 @@ def write_results(
     out = Path(out)
     require_folder(out, PROVENANCE_FORMAT)
     wanted = result.settings.output.report if report is None else report
-    sailed = sail_campaign(result, progress)
-    return write_folder(out, _writers(result, sailed, wanted, progress), provenance(result), progress)
+    if sailed is None:
+        sailed = sail_campaign(result, progress)
+    source = provenance(result)
+    if sailed:
+        source["manoeuvres"] = sailed_provenance(sailed)
+    return write_folder(out, _writers(result, sailed, wanted, progress), source, progress)
 
 
 def loading_ahead(progress: Progress) -> Progress:

@@ -8,8 +8,8 @@ from typing import Literal
 
 from .typography import aligned
 
-Kind = Literal["text", "short", "number", "code"]
-"""``short`` text is not broken into lines."""
+Kind = Literal["text", "short", "name", "number", "code"]
+"""``short`` text is not broken into lines; a ``name`` is given room."""
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
 
 from ..pmm.component_fit import ComponentFit
 from ..pmm.hull_fit import OUTLYING, HullFit
@@ -90,6 +91,7 @@ def residuals_by_run(fit: HullFit, component: str, *, ax: Axes | None = None) ->
     limit = max(3.0, 1.12 * float(np.abs(size).max(initial=0.0)))
     ax.set_ylim(-limit, limit)
     ax.set_xlim(0, len(fit.runs) + 1)
+    ax.xaxis.set_major_locator(MaxNLocator(5, integer=True))
     ax.set_xlabel("number of the run")
     ax.set_ylabel(f"residual of {component} [standard deviations]")
     if several:

@@ -31,7 +31,7 @@ def runs_table(result: CampaignResult) -> Table:
     frame = frame.head(MOST_ROWS)
     used = [(name, title) for name, title in _PARAMETERS if (frame[name] != 0.0).any()]
     depths = frame["h/T"].nunique() > 1
-    columns = [Column("№", "number"), Column("run"), Column("type", "short"), Column("U [m/s]", "number")]
+    columns = [Column("№", "number"), Column("run", "name"), Column("type", "short"), Column("U [m/s]", "number")]
     columns += [Column(title, "number") for _, title in used]
     if depths:
         columns.append(Column("h/T", "number"))
@@ -40,8 +40,9 @@ def runs_table(result: CampaignResult) -> Table:
         Column("samples", "number"),
         Column("largest residual", "number", "standard deviations"),
         Column("quality", "short"),
-        Column("findings"),
     ]
+    if frame["findings"].any():
+        columns.append(Column("findings"))
     rows, marks = [], []
     for number, row in enumerate(frame.to_dict("records"), start=1):
         window = "–"
@@ -57,7 +58,7 @@ def runs_table(result: CampaignResult) -> Table:
             fixed(row["largest residual [sd]"], 1),
             row["quality"],
             row["findings"] or "–",
-        ]
+        ][: len(columns) - len(cells)]
         rows.append(cells)
         marks.append(_MARKS.get(row["quality"], ""))
     caption = f"The first {len(frame)} of {total} runs; all are in runs.csv." if total > len(frame) else ""

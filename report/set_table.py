@@ -20,10 +20,9 @@ can be compared, but not converted by anything that needs the particulars of the
 
 from __future__ import annotations
 
-import csv
 import json
 import math
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +34,7 @@ from ..core.errors import ConventionError, ReadError, TowtankError
 from ..core.provenance import Provenance, file_hash
 from ..core.ship import Ship
 from ..core.terms import parse_terms
+from .numbered_rows import cell_number, numbered_rows
 
 SETS_FORMAT = "towtank derivative sets 1"
 """Format of a derivatives.json that holds the sets of several groups."""
@@ -89,13 +89,7 @@ def read_set(path: str | Path, *, ship: Ship | None = None) -> DerivativeSet:
     path = Path(path)
     if path.suffix.lower() == ".json":
         return _single_set(path)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise ReadError("file not found", cure="give a derivatives.json or a CSV table", file=path) from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise ReadError(f"not readable as text: {error}", cure="give a table in utf-8", file=path) from None
-    header, rows = _split(text, path)
+    header, rows = _split(path)
     values, spread, scalings = _columns(rows, path)
     known = _companion(path) if not header and ship is None else None
     if known is not None:
@@ -131,6 +125,13 @@ def read_set(path: str | Path, *, ship: Ship | None = None) -> DerivativeSet:
     )
 
 
+def with_ship(derivatives: DerivativeSet, ship: Ship) -> DerivativeSet:
+    """The set with another one's ship, when its own table names none and the other's is known; else the same set."""
+    if not isinstance(derivatives.ship, ShipNotGiven) or isinstance(ship, ShipNotGiven):
+        return derivatives
+    return replace(derivatives, ship=ship)
+
+
 def _single_set(path: Path) -> DerivativeSet:
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
@@ -152,17 +153,12 @@ def _companion(path: Path) -> DerivativeSet | None:
     return _single_set(other) if other.is_file() else None
 
 
-def _split(text: str, path: Path) -> tuple[dict[str, str], list[tuple[int, dict[str, str]]]]:
+def _split(path: Path) -> tuple[dict[str, str], tuple[tuple[int, dict[str, str]], ...]]:
     """Heading of the comment lines, and the rows of the table with their line numbers."""
+    table = numbered_rows(path, "name,value,std")
     header: dict[str, str] = {}
-    lines: list[tuple[int, str]] = []
-    for number, line in enumerate(text.splitlines(), start=1):
-        stripped = line.strip()
-        if not stripped.startswith("#"):
-            if stripped:
-                lines.append((number, line))
-            continue
-        key, equals, value = stripped.lstrip("# ").partition("=")
+    for number, line in table.comments:
+        key, equals, value = line.partition("=")
         if not equals:
             continue
         key = key.strip()
@@ -175,31 +171,18 @@ def _split(text: str, path: Path) -> tuple[dict[str, str], list[tuple[int, dict[
                 place=f"line {number}",
             )
         header[key] = value.strip()
-    if not lines:
-        raise ReadError("the table is empty", cure="give columns name,value,std", file=path)
-    delimiter = max(",;\t", key=lines[0][1].count)
-    names = [cell.strip() for cell in next(csv.reader([lines[0][1]], delimiter=delimiter))]
-    rows = []
-    for number, line in lines[1:]:
-        cells = next(csv.reader([line], delimiter=delimiter))
-        if len(cells) != len(names):
-            raise ReadError(
-                f"{len(cells)} cells for {len(names)} columns",
-                cure="mend the row",
-                file=path,
-                place=f"line {number}",
-            )
-        rows.append((number, {name: cell.strip() for name, cell in zip(names, cells, strict=True)}))
-    if "name" not in names or "value" not in names:
+    if "name" not in table.names or "value" not in table.names:
         raise ReadError(
-            f"the table has the columns {', '.join(names)}",
+            f"the table has the columns {', '.join(table.names)}",
             cure="name them name,value and std where known",
             file=path,
         )
-    return header, rows
+    return header, table.rows
 
 
-def _columns(rows: list[tuple[int, dict[str, str]]], path: Path) -> tuple[dict[str, float], list[float], set[str]]:
+def _columns(
+    rows: tuple[tuple[int, dict[str, str]], ...], path: Path
+) -> tuple[dict[str, float], list[float], set[str]]:
     """Values by name, standard uncertainties (empty when one is missing) and the scalings that are named."""
     values: dict[str, float] = {}
     spread: list[float] = []
@@ -208,26 +191,17 @@ def _columns(rows: list[tuple[int, dict[str, str]]], path: Path) -> tuple[dict[s
         name, place = row["name"], f"line {number}"
         if name in values:
             raise ReadError(f"'{name}' is given twice", cure="keep one row", file=path, place=place)
-        values[name] = _number(row["value"], "value", path, place)
+        values[name] = cell_number(row["value"], "value", path, place)
         if not math.isfinite(values[name]):
             raise ReadError(
                 f"the value of '{name}' is missing", cure="fill or drop the row", file=path, place=place
             )
         if row.get("std"):
-            spread.append(_number(row["std"], "std", path, place))
+            spread.append(cell_number(row["std"], "std", path, place))
         if row.get("scaling"):
             scalings.add(row["scaling"])
     complete = len(spread) == len(values) and all(math.isfinite(sd) for sd in spread)
     return values, spread if complete else [], scalings
-
-
-def _number(text: str, what: str, path: Path, place: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise ReadError(
-            f"{what} = '{text}' is not a number", cure="mend the cell", file=path, place=place
-        ) from None
 
 
 def _ship(header: dict[str, str], path: Path) -> Ship:
@@ -235,7 +209,7 @@ def _ship(header: dict[str, str], path: Path) -> Ship:
     for key, value in header.items():
         part = key.removeprefix("ship.")
         if part != key:
-            given[part] = value if part in _SHIP_TEXT else _number(value, key, path, "heading")
+            given[part] = value if part in _SHIP_TEXT else cell_number(value, key, path, "heading")
     if not given:
         return ShipNotGiven(str(path))
     try:
@@ -255,7 +229,7 @@ def _conventions(header: dict[str, str], scalings: set[str], path: Path) -> Conv
             )
         choices["force_scaling"] = next(iter(scalings))
     if "origin" in choices and choices["origin"] not in ("midship", "cog"):
-        choices["origin"] = _number(choices["origin"], "origin", path, "heading")
+        choices["origin"] = cell_number(choices["origin"], "origin", path, "heading")
     try:
         return Conventions.from_dict(choices)
     except TowtankError as error:

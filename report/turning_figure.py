@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 
-from ..simulate.indices import indices
+from ..simulate.manoeuvre_indices import indices
 from ..simulate.trajectory import Trajectory
 from .figure_style import BLUE, INK, MUTED, VERMILLION, new_axes
 from .typography import fixed
@@ -68,7 +68,10 @@ def turning_circle(trajectory: Trajectory, ax: Axes | None = None) -> Axes:
     if "steady diameter" in found and abs(found.get("unsteadiness", 0.0)) < 5.0:
         _steady_circle(ax, trajectory, float(found["steady diameter"]), side)
     _extend(ax, (y0, x0 - 1.1), (y0, top + 1.05))
-    ax.set_ylim(min(float(np.min(trajectory["x"])) / length, x0 - 1.0) - 0.3, top + 1.45)
+    # room for the lengths above the track; limits that are set would be overruled by the equal scales of both axes
+    lowest = min(float(np.min(trajectory["x"])) / length, x0 - 1.0) - 0.3
+    ax.update_datalim([(y0, lowest), (y0, top + 1.45)])
+    ax.autoscale_view()
     return ax
 
 

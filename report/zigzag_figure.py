@@ -10,6 +10,9 @@ from ..simulate.trajectory import Trajectory
 from .figure_style import BLUE, GREEN, INK, MUTED, PANEL, VERMILLION, new_axes, small_legend
 from .typography import fixed
 
+STRAIGHT = 0.01
+"""Degrees of heading and rudder below which a motion is drawn as straight: the errors of the integration."""
+
 SIZE, MARGINS = PANEL, (0.66, 0.1, 0.46, 0.3)
 
 
@@ -72,6 +75,8 @@ def heading_and_rudder(trajectory: Trajectory, ax: Axes | None = None) -> Axes:
     ax.plot(time, np.degrees(trajectory["psi"]), color=BLUE, linewidth=1.5, label="heading ψ")
     if "delta" in trajectory:
         ax.plot(time, np.degrees(trajectory["delta"]), color=VERMILLION, linewidth=1.0, label="rudder δ")
+    if max(abs(edge) for edge in ax.dataLim.intervaly) < STRAIGHT:
+        ax.set_ylim(-1.0, 1.0)
     ax.set_xlabel("time [s]")
     ax.set_ylabel("ψ, δ [deg]")
     small_legend(ax, loc="lower center", bbox_to_anchor=(0.5, 0.99), ncols=2, borderaxespad=0.0)

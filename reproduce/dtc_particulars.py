@@ -6,8 +6,10 @@ import math
 from collections.abc import Iterator
 
 from ..datasets import load_extras, load_set
+from ..verify.grid_triplet import GridTriplet
+from ..verify.iterative_uncertainty import iterative_limits
+from ..verify.triplet_uncertainty import correction_factor_uncertainty
 from .case import Case, half_digit
-from .grid_triplet import GridTriplet
 from .printed_numbers import KNOT, printed_by, printed_rows
 from .rounding import spread_of
 
@@ -45,19 +47,18 @@ def _grids(key: str) -> Iterator[Case]:
     refinement = printed["r_G"]
 
     def triplet(*limits: float) -> GridTriplet:
-        return GridTriplet(*(0.5 * (limits[i] + limits[i + 1]) for i in (0, 2, 4)))
+        means = [iterative_limits(limits[i], limits[i + 1]).value for i in (0, 2, 4)]
+        return GridTriplet(means[0], means[1], means[2], refinement, refinement)
 
-    def step(*limits: float) -> float:
-        """Error estimate of grid 2 by Richardson extrapolation from the coarse pair."""
+    def uncertainty(grids: GridTriplet, error: float) -> float:
+        return correction_factor_uncertainty(error, grids.correction_factor(), version=2001)
+
+    def of_medium(*limits: float) -> float:
+        return uncertainty(triplet(*limits), triplet(*limits).medium_error)
+
+    def of_fine(*limits: float) -> float:
         grids = triplet(*limits)
-        return grids.coarse_change / (refinement ** grids.order(refinement) - 1.0)
-
-    def correction(*limits: float) -> float:
-        return (refinement ** triplet(*limits).order(refinement) - 1.0) / (refinement**2 - 1.0)
-
-    def uncertainty(*limits: float) -> float:
-        c, delta = correction(*limits), step(*limits)
-        return abs(c * delta) + abs((1.0 - c) * delta)
+        return 100.0 * uncertainty(grids, grids.error) / grids.fine
 
     notes = {
         "C_G": "far from 1: the grids are outside the asymptotic range",
@@ -65,13 +66,13 @@ def _grids(key: str) -> Iterator[Case]:
         "the error of 6.4 % would not be validated",
     }
     for quantity, function, decimals in (
-        ("eps21", lambda *s: triplet(*s).fine_change, 3),
-        ("eps32", lambda *s: triplet(*s).coarse_change, 3),
+        ("eps21", lambda *s: triplet(*s).eps21, 3),
+        ("eps32", lambda *s: triplet(*s).eps32, 3),
         ("R_G", lambda *s: triplet(*s).ratio, 3),
-        ("p_G", lambda *s: triplet(*s).order(refinement), 3),
-        ("delta_RE", step, 3),
-        ("C_G", correction, 3),
-        ("U_G", uncertainty, 3),
+        ("p_G", lambda *s: triplet(*s).order, 3),
+        ("delta_RE", lambda *s: triplet(*s).medium_error, 3),
+        ("C_G", lambda *s: triplet(*s).correction_factor(), 3),
+        ("U_G", of_medium, 3),
     ):
         yield Case(
             key,
@@ -82,6 +83,15 @@ def _grids(key: str) -> Iterator[Case]:
             spread_of(function, *((value, 4) for value in bounds)) + half_digit(decimals),
             note=notes.get(quantity, ""),
         )
+    (fine_grid,) = printed_rows("dtc-fine-grid-computed")
+    yield Case(
+        key,
+        "Table 3, fine grid (independent computation)",
+        "U_G of the fine grid, % of its force",
+        fine_grid["U_G"],
+        of_fine(*bounds),
+        half_digit(1),
+    )
     for finer, coarser in (("2", "3"), ("1", "2")):
         yield Case(
             key,
@@ -98,7 +108,7 @@ def _grids(key: str) -> Iterator[Case]:
             "Table 3",
             f"iteration uncertainty of grid {grid} in N",
             table[grid]["iteration_uncertainty"],
-            0.5 * (upper - lower),
+            iterative_limits(upper, lower).uncertainty,
             half_digit(4),
         )
 

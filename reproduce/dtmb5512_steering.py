@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from ..core.errors import SimulationError
 from ..simulate.manoeuvres import turning
-from ..simulate.sail import sail
+from ..simulate.sailing import sail
 from ..simulate.ships import named_ship
 from .case import Case
 

@@ -10,7 +10,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ..core.variables import GRAVITY
+from ..squat.fairway import MIDSHIP_COEFFICIENT, blockage
 from ..squat.head_waves import met_wave
+from ..squat.restoring_squat import stern_over_bow
+from ..squat.restricted_flow import kreitner, level_drop
 from ..verify import complex_error, phasor, relative_errors, score_codes
 from .case import Case, Paper, half_digit
 from .printed_numbers import KNOT, printed_by, printed_rows, ship_of
@@ -35,6 +39,10 @@ def cases() -> Iterator[Case]:
     yield from _repeats()
     yield from _added_resistance()
     yield from _simulator()
+    yield from _simulated_wave()
+    yield from _stern_over_bow()
+    yield from _revolutions()
+    yield from _tank_walls()
 
 
 def _mean_sinkage() -> Iterator[Case]:
@@ -271,6 +279,89 @@ def _simulator() -> Iterator[Case]:
                 computed,
                 spread + half_digit(0),
             )
+
+
+def _simulated_wave() -> Iterator[Case]:
+    """The waves of CW4 are 0.55 ship lengths long, which the printed period does not give at that depth."""
+    ship, row = ship_of("dtc-benchmark-waves"), printed_by("dtc-benchmark-waves", "test")["CW4"]
+    depth, ratio = float(row["depth"]), 0.55
+
+    def period(lengths: float) -> float:
+        k = 2.0 * math.pi / (lengths * ship.L)
+        return 2.0 * math.pi / math.sqrt(GRAVITY * k * math.tanh(k * depth))
+
+    yield Case(
+        KEY,
+        "simulator, head of the table of CW4",
+        "wave period in s",
+        1.38,
+        period(ratio),
+        spread_of(period, (ratio, 2)) + half_digit(2),
+        expected=float(row["period"]),
+        note="the head repeats the wave of CW1; 1.66 s was measured",
+    )
+
+
+def _stern_over_bow() -> Iterator[Case]:
+    """Equations 5 and 6 give one ratio for the hull; the simulated pairs give three."""
+    rows = {(row["case"], row["quantity"]): row["simulated"] for row in printed_rows("dtc-simulator-squat")}
+    pairs = {test: (float(rows[test, "stern"]), float(rows[test, "bow"])) for test in ("C1", "C2", "C3")}
+    for test, printed in (("C1", 0.348), ("C2", 0.364), ("C3", 0.339)):
+        stern, bow = pairs[test]
+        coupling = (1.0 - stern / bow) / (1.0 + stern / bow)
+        name = "pitch at the bow over heave (recomputed reference)"
+        yield Case(KEY, f"simulator, {test}", name, printed, coupling, half_digit(3))
+        # of a ship of length 1, whose restoring in heave and pitch are 1
+        matrix = np.array([[1.0, 2.0 * coupling], [2.0 * coupling, 1.0]])
+        ratio = stern_over_bow(matrix, 1.0)
+        yield Case(KEY, f"simulator, {test}", "stern over bow by the restoring matrix", stern / bow, ratio, 1e-9)
+    slow, fast = (pairs[test][0] / pairs[test][1] for test in ("C1", "C2"))
+    spread = sum(spread_of(lambda s, b: s / b, *((value, 2) for value in pairs[test])) for test in ("C1", "C2"))
+    yield Case(
+        KEY,
+        "simulator, equations 5 and 6",
+        "stern over bow at 16 kn as at 6 kn",
+        slow,
+        fast,
+        spread,
+        note="the equations make the ratio a constant of the hull; the simulated pairs differ by more than rounding",
+    )
+
+
+def _revolutions() -> Iterator[Case]:
+    rows = printed_rows("dtc-benchmark-revolutions")
+    for row in rows:
+        spread = spread_of(lambda u, n: u / (60.0 * n), (row["speed"], 3), (row["revolutions"], 2))
+        computed = float(row["speed"]) / (60.0 * float(row["revolutions"]))
+        where = f"Table 9, {row['revolutions']:g} rps"
+        yield Case(KEY, where, "speed over revolutions a minute", row["ratio"], computed, spread + half_digit(5))
+    speeds, revolutions = ([float(row[name]) for row in rows] for name in ("speed", "revolutions"))
+    for speed, printed in ((0.327, 5.09), (0.872, 12.57)):
+        computed = float(np.interp(speed, speeds, revolutions))
+        name = "revolutions in rps (recomputed reference)"
+        yield Case(KEY, f"Table 9, {speed:g} m/s", name, printed, computed, half_digit(2))
+
+
+def _tank_walls() -> Iterator[Case]:
+    """What the walls of the 7 m wide tank do by one-dimensional theory."""
+    ship = ship_of("dtc-benchmark-waves")
+    area = MIDSHIP_COEFFICIENT * ship.B * ship.T
+    for test, speed, depth, share, gamma, drop in (
+        ("C1", 0.327, 0.326, 0.040, 1.043, 0.48),
+        ("C2", 0.872, 0.326, 0.040, 1.057, 4.55),
+        ("C3", 0.327, 0.1956, 0.067, 1.077, 0.87),
+    ):
+        where = f"tank walls, {test}"
+        ratio = blockage(area, 7.0 * depth)
+        froude = speed / math.sqrt(GRAVITY * depth)
+        found = kreitner(ratio, froude).gamma
+        lower = 1000.0 * float(level_drop(depth, froude, found)[0])
+        for name, printed, computed, decimals in (
+            ("blockage", share, ratio, 3),
+            ("Kreitner's gamma", gamma, float(found[0]), 3),
+            ("drop of level in mm", drop, lower, 2),
+        ):
+            yield Case(KEY, where, f"{name} (recomputed reference)", printed, computed, half_digit(decimals))
 
 
 PAPER = Paper(

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..core.ship import Ship
+from ..decay.decay_input import decay_from_table
 from ..decay.fluid_memory import simulate_memory_decay
 from ..decay.memory_fit import fit_memory_decay
 from ..decay.retardation import check_added_mass, impulse_response
@@ -98,16 +99,9 @@ def _decay() -> Iterator[Case]:
     terms = {"b1": 6.0e8 / inertia, "b2": 2.3e9 / inertia, "c1": restoring / inertia}
     time = np.arange(0.0, 200.0, 0.25)
     angle = simulate_memory_decay(time, (math.radians(7.0), 0.0), terms, _memory(), inertia)[:, 0]
-    known = fit_memory_decay(time, angle, _memory(), inertia=inertia, restoring=restoring)
-    free = fit_memory_decay(
-        time,
-        angle,
-        _memory(),
-        inertia=1.2 * inertia,
-        restoring=1.1 * restoring,
-        free_inertia=True,
-        free_restoring=True,
-    )
+    record = decay_from_table({"time": time, "phi": angle}, unit="rad")
+    known = fit_memory_decay(record, _memory(), inertia=inertia, restoring=restoring)
+    free = fit_memory_decay(record, _memory(), inertia=1.2 * inertia, free_inertia=True)
     for what, fit in (("inertia and restoring known", known), ("all free", free)):
         for name, value in (("b1", 6.0e8), ("b2", 2.3e9), ("c1", restoring)):
             yield Case(
@@ -115,7 +109,7 @@ def _decay() -> Iterator[Case]:
                 f"decay with memory, {what}",
                 f"{name} times inertia",
                 value,
-                fit.dimensional()[name][0],
+                fit.dimensional_terms()[name][0],
                 1e-5 * value,
             )
         yield Case(KEY, f"decay with memory, {what}", "inertia", inertia, fit.inertia, 1e-5 * inertia)

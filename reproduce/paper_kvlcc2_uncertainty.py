@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator
 from functools import cache
 
-from ..simulate.ensemble import Ensemble, ensemble
+from ..simulate.ensembles import Ensemble, ensemble
 from ..simulate.packing import pack
 from ..simulate.parameter_scatter import HULL, MMG_COEFFICIENTS
 from ..simulate.self_propulsion import self_propulsion_rates

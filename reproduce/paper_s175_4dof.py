@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import cache
 
 from ..simulate.manoeuvres import turning
-from ..simulate.sail import sail
+from ..simulate.sailing import sail
 from ..simulate.ships import named_ship
 from ..simulate.turning_indices import turning_indices
 from ..simulate.vessel import Engine, SteeringGear, Vessel

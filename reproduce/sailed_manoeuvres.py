@@ -8,7 +8,7 @@ from ..simulate.events import Events
 from ..simulate.manoeuvres import turning, zigzag
 from ..simulate.parameters import Condition
 from ..simulate.programme import End, Phase, Programme
-from ..simulate.sail import sail
+from ..simulate.sailing import sail
 from ..simulate.trajectory import Trajectory
 from ..simulate.turning_indices import turning_indices
 from ..simulate.vessel import Vessel

@@ -4,38 +4,35 @@
 ``ships``, ``fitted_vessel``  named ships; a fitted set as a ship
 ``vessel``                    hull, propeller, rudder, steering gear, engine
 ``manoeuvres``                turning circle, zig-zag, ... as programmes; ``named_programmes`` by name
-``sail``                      one trajectory, or the events of many draws
+``sailing``                   one trajectory, or the events of many draws
 ``manoeuvring_results``       several manoeuvres of one ship
 ``trajectory``, ``events``    a manoeuvre, simulated or measured
-``indices``, ``criteria``     indices with definitions, IMO MSC.137(76)
-``ensemble``                  uncertainty of the indices, elasticities
+``manoeuvre_indices``         indices with their definitions; ``criteria`` of IMO MSC.137(76)
+``ensembles``                 uncertainty of the indices, elasticities
 ``environment``               current, wind, waves
 ``current``                   a current found in a trial and removed
 ``trial_validation``          a measured manoeuvre against the simulated one
 ``stability``, ``bank``       straight-line stability, bank effect with autopilot
 ============================  =========================================================================
 
-Names are loaded when they are first used. Three functions share their names with their modules: ``from towtank.simulate
-import sail`` gives the function.
+Names are loaded when they are first used.
 """
 
 from __future__ import annotations
 
-import sys
 from importlib import import_module
-from types import ModuleType
 from typing import Any
 
 _HOMES = {
     "criteria": ("imo_criteria",),
     "current": ("CurrentEstimate", "estimate_current", "remove_current"),
-    "ensemble": ("Ensemble", "ensemble"),
+    "ensembles": ("Ensemble", "ensemble"),
     "environment": ("Current", "Environment"),
     "environment_file": ("read_environment",),
     "events": ("Events",),
     "fitted_vessel": ("vessel_from_set",),
     "found_events": ("find_events",),
-    "indices": ("event_indices", "indices"),
+    "manoeuvre_indices": ("event_indices", "indices"),
     "manoeuvres": (
         "course_keeping",
         "crash_stop",
@@ -53,7 +50,7 @@ _HOMES = {
     "programme": ("Programme",),
     "propeller": ("Propeller", "ThrustSurface"),
     "rudder": ("Rudder",),
-    "sail": ("sail", "sail_events"),
+    "sailing": ("sail", "sail_events"),
     "schedule_file": ("read_schedule",),
     "ships": ("named_ship", "named_ships"),
     "trajectory": ("Trajectory",),
@@ -65,21 +62,6 @@ _HOMES = {
 _HOME = {name: f".{module}" for module, names in _HOMES.items() for name in names}
 
 __all__ = sorted(_HOME)
-
-_SHARED = ("ensemble", "indices", "sail")
-"""Functions that share their name with their module."""
-
-
-class _Room(ModuleType):
-    """The import of a module puts it into its package: here the function of its name stays in front."""
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        if name in _SHARED and isinstance(value, ModuleType):
-            value = getattr(value, name)
-        super().__setattr__(name, value)
-
-
-sys.modules[__name__].__class__ = _Room
 
 
 def __getattr__(name: str) -> Any:

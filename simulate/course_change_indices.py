@@ -5,7 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.ship import Ship
-from .event_geometry import across_course, along_course, elapsed, require_events, speed_at, turning_side
+from .event_geometry import (
+    across_course,
+    along_course,
+    elapsed,
+    heading_change,
+    require_events,
+    speed_at,
+    turning_side,
+)
 from .events import Events, FloatArray
 from .track_length import track_length
 
@@ -61,26 +69,29 @@ def pull_out_indices(events: Events, ship: Ship) -> dict[str, FloatArray]:
     }
 
 
-def williamson_indices(events: Events, ship: Ship, reciprocal: str = "end") -> dict[str, FloatArray]:
-    """Indices of a Williamson turn: where the ship is when it is back on the reciprocal course.
+def williamson_indices(events: Events, ship: Ship) -> dict[str, FloatArray]:
+    """Indices of a Williamson turn: when the ship is back on the reciprocal course, and how far beside her track.
 
     Parameters
     ----------
     events : Events
-        ``"execute"`` and the event that is named by `reciprocal`.
+        ``"execute"``; ``"reciprocal"``: the heading is first within 1 degree of the reciprocal course; ``"extreme"``:
+        it is furthest beyond it; ``"end"``: the ship is steady on that course.
     ship : Ship
-    reciprocal : str
-        Event at which the ship is steady on the reciprocal course.
 
     Returns
     -------
     dict of str to ndarray, shape (draws,)
-        The side offset is positive to the side of the first turn.
+        The side offset is positive to the side of the first turn; the overshoot is NaN for a ship that does not
+        swing over.
     """
-    require_events(events, ("execute", reciprocal), "Williamson turn")
+    require_events(events, ("execute", "reciprocal", "end"), "Williamson turn")
     side = np.nan_to_num(turning_side(events), nan=1.0)
+    beyond = -side * heading_change(events, "execute", "extreme") - np.pi
     return {
-        "side offset": side * across_course(events, "execute", reciprocal) / ship.L,
-        "distance back": along_course(events, "execute", reciprocal) / ship.L,
-        "time to reciprocal course": elapsed(events, "execute", reciprocal),
+        "side offset": side * across_course(events, "execute", "end") / ship.L,
+        "distance back": along_course(events, "execute", "reciprocal") / ship.L,
+        "time to reciprocal course": elapsed(events, "execute", "reciprocal"),
+        "course overshoot": np.degrees(np.where(beyond > 0.0, beyond, np.nan)),
+        "time to steady course": elapsed(events, "execute", "end"),
     }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -10,6 +11,7 @@ from ..core.errors import SimulationError
 from .propeller import Propeller, ThrustSurface
 from .rudder import Rudder
 from .ships import named_ship
+from .validity import depends, doubtful_scale
 from .vessel import Inertia, SteeringGear, Vessel
 
 _ADDED_MASSES = ("Xudot", "Yvdot", "Nrdot")
@@ -64,8 +66,16 @@ def vessel_from_set(
             speed, sources["speed"] = donor.speed * k**0.5, donor.name
         hull = _with_added_masses(hull, donor, sources)
         hull = _with_inertia(hull, donor, sources)
+    bare = [name for name, value in zip(hull.names, hull.values, strict=True) if not math.isfinite(value)]
+    if bare:
+        raise SimulationError(
+            f"set '{hull.name}' cannot be sailed: {', '.join(bare)} {'is' if len(bare) == 1 else 'are'} not finite",
+            cure="fit these terms again, or leave them out",
+        )
     speed = hull.reference_speed if speed is None else speed
     missing = _missing(hull, propeller, rudder, gear, speed, inertia or Inertia())
+    if more.get("cross_flow") is None:
+        missing += _missing_damping(hull)
     if missing or gear is None or speed is None:
         raise SimulationError(
             f"set '{hull.name}' cannot be sailed: it lacks {'; '.join(missing)}",
@@ -80,6 +90,7 @@ def vessel_from_set(
         rudder=rudder,
         inertia=inertia or Inertia(),
         sources=sources,
+        findings=tuple(doubtful_scale(hull)),
         **more,
     )
 
@@ -129,6 +140,15 @@ def _missing(
         "the metacentric height (GM)": rolls and inertia.GM is None and ship.GM is None,
     }
     return [part for part, lacking in wanted.items() if lacking]
+
+
+def _missing_damping(hull: DerivativeSet) -> list[str]:
+    """Damping without which a disturbance grows for want of measurements: static drift alone shows no yaw damping."""
+    wanted = {
+        "the damping of sway (Yv: runs with drift)": depends(hull, "Y", "v", "beta"),
+        "the damping of yaw (Nr: runs with a yaw rate)": depends(hull, "N", "r"),
+    }
+    return [part for part, there in wanted.items() if not there]
 
 
 def _with_added_masses(hull: DerivativeSet, donor: Vessel, sources: dict[str, str]) -> DerivativeSet:

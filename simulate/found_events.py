@@ -9,11 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
-from ..core.errors import AuditError, ReadError, TowtankError
-from .events import COLUMN_NUMBER, COLUMNS, Events, FloatArray
+from ..core.errors import ReadError
+from .events import COLUMN_NUMBER, Events, FloatArray
+from .found_spirals import find_spiral
+from .found_states import order_time, same_side, settled_end, single, state_or_nan, turned
 from .manoeuvre_names import NamedManoeuvre, read_manoeuvre_name
 from .rudder_history import RudderPhase, rudder_phases, step_start
 from .sampled_channels import SampledChannels
@@ -25,6 +28,12 @@ SETTLED_HEADING = np.radians(90.0)
 
 LEAST_TURN = np.radians(5.0)
 """A record with less heading change than this holds no turn."""
+
+STEADY_COURSE = 5.0
+"""Degrees beside the reciprocal course within which the record of a Williamson turn ends."""
+
+STOPPED = 0.005
+"""A record that ends with less than this share of the approach speed ends at the stop."""
 
 SPEED_EVENTS = tuple(range(90, 0, -10))
 """Per cent of the approach speed at which a stopping ship is noted, so that its track can be measured."""
@@ -38,8 +47,9 @@ def find_events(
     Parameters
     ----------
     trajectory : Trajectory
-        Its `manoeuvre` says what to look for; a turn or a stop needs ``time, x, y, psi``, a zig-zag ``time, psi,
-        delta``. Yaw rate and velocities that were not recorded follow from heading and track.
+        Its `manoeuvre` says what to look for; a turn or a stop needs ``time, x, y, psi``, a zig-zag or a spiral
+        ``time, psi, delta``, a Williamson turn all of these. Yaw rate and velocities that were not recorded follow
+        from heading and track. The record of a Williamson turn ends when the ship is steady on the reciprocal course.
     execute : float, optional
         Time of the first order in s; default where the rudder (the propeller, for a crash stop) begins to move.
     half_width : float, optional
@@ -50,7 +60,8 @@ def find_events(
     -------
     Events
         One draw, with the names of simulated manoeuvres. Of a noisy record, velocities, angles and rates at ``"end"``
-        are means over the last 90 degrees of heading (turning) or the last tenth of the record (pull-out).
+        are means over the last 90 degrees of heading (turning) or the last tenth of the record (pull-out), and those
+        of a spiral over the last quarter of each rudder angle (or yaw rate, in a reverse spiral).
 
     Raises
     ------
@@ -59,13 +70,7 @@ def find_events(
         that contradict each other.
     """
     named = read_manoeuvre_name(trajectory.manoeuvre)
-    finder, needed = _FINDERS.get(named.kind, (None, ()))
-    if finder is None:
-        raise TowtankError(
-            f"events of a {named.kind} are not looked for in samples",
-            cure="of a spiral, give the steady rudder angles and yaw rates to spiral_indices; else give the events",
-            place=trajectory.manoeuvre,
-        )
+    finder, needed = _FINDERS[named.kind]
     check_samples(trajectory, ("time", "psi", *needed))
     audit_channels(trajectory)
     return finder(trajectory, SampledChannels(trajectory, half_width), named, execute)
@@ -76,42 +81,6 @@ def with_events(trajectory: Trajectory, *, execute: float | None = None) -> Traj
     if trajectory.events is not None:
         return trajectory
     return replace(trajectory, events=find_events(trajectory, execute=execute))
-
-
-def order_time(trajectory: Trajectory, execute: float | None = None, channel: str = "delta") -> float:
-    """Time in s of the first order: as given, or when the rudder (or another channel) begins to move.
-
-    Raises
-    ------
-    ReadError
-        For a time outside the record, a channel that is missing, or one that does not move.
-    """
-    time = trajectory["time"]
-    if execute is not None:
-        if not time[0] <= execute < time[-1]:
-            raise ReadError(
-                f"execute = {execute:g} s is outside the record from {time[0]:g} to {time[-1]:g} s",
-                cure="give a time inside the record",
-                file=trajectory.source or None,
-            )
-        return float(execute)
-    if channel not in trajectory:
-        raise ReadError(
-            f"without the channel '{channel}' the order cannot be found",
-            cure="give the channel, or execute=<time in s>",
-            file=trajectory.source or None,
-            place=trajectory.manoeuvre,
-        )
-    return step_start(time, trajectory[channel], "rudder" if channel == "delta" else "propeller rate")
-
-
-def _single(found: dict[str, FloatArray]) -> Events:
-    return Events({name: row[np.newaxis, :] for name, row in found.items()})
-
-
-def _turned(channels: SampledChannels, start: FloatArray, side: float) -> None:
-    """Add the heading turned since execute, positive to the side of the manoeuvre."""
-    channels.add("turned", side * (channels.channels["psi"] - start[COLUMN_NUMBER["psi"]]))
 
 
 def _side_of_turn(trajectory: Trajectory, channels: SampledChannels, begin: float) -> float:
@@ -129,19 +98,8 @@ def _side_of_turn(trajectory: Trajectory, channels: SampledChannels, begin: floa
     if "delta" in trajectory:
         rudder = trajectory["delta"]
         helm = float(np.median(rudder[channels.time > begin]) - np.median(rudder[channels.time <= begin]))
-        _same_side(side, helm, trajectory)
+        same_side(side, helm, trajectory)
     return side
-
-
-def _same_side(side: float, helm: float, trajectory: Trajectory) -> None:
-    if abs(helm) > np.radians(1.0) and np.sign(helm) != side:
-        raise AuditError(
-            f"the ship turns to {'starboard' if side > 0 else 'port'} with the rudder to "
-            f"{'starboard' if helm > 0 else 'port'}",
-            cure="a laboratory may count rudder to port positive: read it with signs={'delta': -1}",
-            file=trajectory.source or None,
-            place=trajectory.manoeuvre,
-        )
 
 
 def _at_headings(channels: SampledChannels, headings: list[int], begin: float) -> dict[str, FloatArray]:
@@ -149,26 +107,8 @@ def _at_headings(channels: SampledChannels, headings: list[int], begin: float) -
     found = {}
     for heading in headings:
         moment = channels.crossing("turned", np.radians(heading), begin, float(channels.time[-1]))
-        found[f"heading {heading}"] = _state_or_nan(channels, moment)
+        found[f"heading {heading}"] = state_or_nan(channels, moment)
     return found
-
-
-def _state_or_nan(channels: SampledChannels, moment: float) -> FloatArray:
-    return np.full(len(COLUMNS), np.nan) if np.isnan(moment) else channels.state(moment)
-
-
-def _settled_end(channels: SampledChannels, rows: FloatArray) -> FloatArray:
-    """State at the last sample; of a noisy record, the means over `rows` of what should be steady by then."""
-    state = channels.state(float(channels.time[-1]))
-    if channels.half_width == 0.0 or np.count_nonzero(rows) < 3:
-        return state
-    for name in ("u", "v", "phi", "p", "delta", "n"):
-        if name in channels.channels:
-            state[COLUMN_NUMBER[name]] = np.mean(channels.channels[name][rows])
-    time = channels.time[rows] - channels.time[-1]
-    slope = np.polynomial.polynomial.polyfit(time, channels.channels["psi"][rows], 1)[1]
-    state[COLUMN_NUMBER["r"]] = slope
-    return state
 
 
 def _turning(
@@ -177,16 +117,16 @@ def _turning(
     begin = order_time(trajectory, execute)
     start = channels.state(begin)
     side = _side_of_turn(trajectory, channels, begin)
-    _turned(channels, start, side)
+    turned(channels, start, side)
     most = float(np.degrees(channels.channels["turned"].max()))
     headings = [10, 20, 30, 60, *range(90, max(int(most), 180) + 1, 90)]
     found = {"execute": start, **_at_headings(channels, headings, begin)}
     found |= _extremes_of_track(channels, start, side, begin)
     if "phi" in trajectory:
-        found["maximum heel"] = _state_or_nan(channels, _first_heel(channels, begin))
+        found["maximum heel"] = state_or_nan(channels, _first_heel(channels, begin))
     last = channels.channels["turned"] >= channels.channels["turned"].max() - SETTLED_HEADING
-    found["end"] = _settled_end(channels, last & (channels.time > begin))
-    return _single(found)
+    found["end"] = settled_end(channels, last & (channels.time > begin))
+    return single(found)
 
 
 def _extremes_of_track(
@@ -203,7 +143,7 @@ def _extremes_of_track(
     for name, channel, until in (("maximum advance", "along", 225.0), ("maximum transfer", "across", 315.0)):
         beyond = np.flatnonzero(channels.channels["turned"] > np.radians(until))
         before = float(channels.time[beyond[0]]) if len(beyond) else float(channels.time[-1])
-        found[name] = _state_or_nan(channels, channels.highest(channel, begin, before))
+        found[name] = state_or_nan(channels, channels.highest(channel, begin, before))
     return found
 
 
@@ -219,9 +159,9 @@ def _initial_turning(
 ) -> Events:
     begin = order_time(trajectory, execute)
     start = channels.state(begin)
-    _turned(channels, start, _side_of_turn(trajectory, channels, begin))
+    turned(channels, start, _side_of_turn(trajectory, channels, begin))
     found = {"execute": start, **_at_headings(channels, [10], begin)}
-    return _single({**found, "end": channels.state(float(channels.time[-1]))})
+    return single({**found, "end": channels.state(float(channels.time[-1]))})
 
 
 def _put_amidships(trajectory: Trajectory) -> float:
@@ -242,7 +182,7 @@ def _pull_out(
         else order_time(trajectory, execute)
     )
     last = channels.time >= channels.time[-1] - 0.1 * (channels.time[-1] - begin)
-    return _single({"execute": channels.state(begin), "end": _settled_end(channels, last)})
+    return single({"execute": channels.state(begin), "end": settled_end(channels, last)})
 
 
 def _crash_stop(
@@ -254,9 +194,45 @@ def _crash_stop(
     found = {"execute": start}
     for share in SPEED_EVENTS:
         level = 0.01 * share * start[COLUMN_NUMBER["u"]]
-        found[f"speed {share}"] = _state_or_nan(channels, channels.crossing("u", level, begin, end, rising=False))
-    found["stopped"] = _state_or_nan(channels, channels.crossing("u", 0.0, begin, end, rising=False))
-    return _single({**found, "end": channels.state(end)})
+        found[f"speed {share}"] = state_or_nan(channels, channels.crossing("u", level, begin, end, rising=False))
+    stopped = channels.crossing("u", 0.0, begin, end, rising=False)
+    if np.isnan(stopped) and abs(channels.value("u", end)) < STOPPED * start[COLUMN_NUMBER["u"]]:
+        stopped = end
+    found["stopped"] = state_or_nan(channels, stopped)
+    return single({**found, "end": channels.state(end)})
+
+
+def _williamson(
+    trajectory: Trajectory, channels: SampledChannels, named: NamedManoeuvre, execute: float | None
+) -> Events:
+    where: dict[str, Any] = {"file": trajectory.source or None, "place": trajectory.manoeuvre}
+    phases = rudder_phases(channels.time, trajectory["delta"])
+    delta = trajectory["delta"] - trajectory["delta"][0]
+    if len(phases) < 2 or min(delta.max(), -delta.min()) < 0.2 * np.ptp(delta):
+        raise ReadError(
+            "the rudder is never put over to the other side: this is no Williamson turn",
+            cure="check the column of the rudder, or name the manoeuvre 'turning'",
+            **where,
+        )
+    start = channels.state(order_time(trajectory, execute))
+    shift = channels.state(phases[1].ordered)
+    psi = COLUMN_NUMBER["psi"]
+    side = phases[0].side
+    same_side(float(np.sign(shift[psi] - start[psi])), side, trajectory)
+    turned(channels, start, -side)
+    end = float(channels.time[-1])
+    reached = channels.crossing("turned", np.radians(179.0), float(shift[0]), end)
+    left = float(np.degrees(channels.channels["turned"][-1])) - 180.0
+    if np.isnan(reached) or abs(left) > STEADY_COURSE:
+        raise ReadError(
+            f"the record ends {abs(left):.3g} deg beside the reciprocal course",
+            cure="give the record until the ship is steady on that course",
+            **where,
+        )
+    found = {"execute": start, "shift": shift, "reciprocal": channels.state(reached)}
+    beyond = channels.highest("turned", reached, end)
+    found["extreme"] = state_or_nan(channels, beyond)
+    return single({**found, "end": channels.state(end)})
 
 
 def _zigzag(
@@ -270,7 +246,7 @@ def _zigzag(
     found = {"execute 1": start}
     executes = [phases[0].ordered, *_reversals(channels, phases, named, start)]
     for number, moment in enumerate(executes[1:], start=2):
-        found[f"execute {number}"] = _state_or_nan(channels, moment)
+        found[f"execute {number}"] = state_or_nan(channels, moment)
     if len(executes) < 2:
         raise ReadError(
             "the rudder is never reversed in this record: this is no zig-zag",
@@ -279,16 +255,16 @@ def _zigzag(
             place=trajectory.manoeuvre,
         )
     psi = COLUMN_NUMBER["psi"]
-    _same_side(float(np.sign(found["execute 2"][psi] - start[psi])), phases[0].side, trajectory)
+    same_side(float(np.sign(found["execute 2"][psi] - start[psi])), phases[0].side, trajectory)
     for number, (phase, after) in enumerate(zip(phases, executes[1:]), start=1):
         before = executes[number + 1] if number + 1 < len(executes) else end
-        _turned(channels, start, phase.side)
+        turned(channels, start, phase.side)
         peak = channels.highest("turned", after, before)
-        found[f"extreme {number}"] = _state_or_nan(channels, peak)
+        found[f"extreme {number}"] = state_or_nan(channels, peak)
         if not np.isnan(peak):
             back = channels.crossing("turned", 0.0, peak, end, rising=False)
-            found[f"return {number}"] = _state_or_nan(channels, back)
-    return _single({**found, "end": channels.state(end)})
+            found[f"return {number}"] = state_or_nan(channels, back)
+    return single({**found, "end": channels.state(end)})
 
 
 def _reversals(
@@ -299,7 +275,7 @@ def _reversals(
     for before, phase in pairwise(phases):
         moment = phase.ordered
         if named.heading is not None:
-            _turned(channels, start, before.side)
+            turned(channels, start, before.side)
             # The helm answers within the time of its own travel; a crossing elsewhere belongs to noise or drift.
             travel = 2.0 * (phase.reached - phase.ordered)
             level = np.radians(named.heading)
@@ -317,4 +293,7 @@ _FINDERS: dict[str, tuple[_Finder, tuple[str, ...]]] = {
     "pull-out": (_pull_out, ()),
     "crash stop": (_crash_stop, ("x", "y")),
     "zigzag": (_zigzag, ("delta",)),
+    "williamson": (_williamson, ("x", "y", "delta")),
+    "spiral": (find_spiral, ("delta",)),
+    "reverse spiral": (find_spiral, ("delta",)),
 }

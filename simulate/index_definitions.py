@@ -95,12 +95,19 @@ DEFINITIONS: dict[str, IndexDefinition] = {
     "yaw rate slope": IndexDefinition("1/s", "dr / d delta where the yaw rate is zero, of a stable ship"),
     # Williamson turn
     "side offset": IndexDefinition(
-        "L", "distance across the original track when the reciprocal course is reached; to starboard of it"
+        "L",
+        "distance across the original track when steady on the reciprocal course; to the side of the first turn",
     ),
     "distance back": IndexDefinition(
         "L", "distance along the original course from execute when the reciprocal course is reached"
     ),
-    "time to reciprocal course": IndexDefinition("s", "from execute to the steady reciprocal course"),
+    "time to reciprocal course": IndexDefinition(
+        "s", "from execute to a heading within 1 deg of the reciprocal one"
+    ),
+    "course overshoot": IndexDefinition("deg", "largest heading beyond the reciprocal course"),
+    "time to steady course": IndexDefinition(
+        "s", "from execute to the steady reciprocal course, with nearly the speed of the approach"
+    ),
 }
 """Indices with fixed names."""
 

@@ -16,6 +16,9 @@ from .programme import MAXIMUM_HEEL, End, Phase, Programme
 STEADY = 1e-4
 """Acceleration, in units of U0**2/L and (U0/L)**2, below which a motion is steady."""
 
+STEADIED = 0.01
+"""The same for a ship that has been steadied on a course: she still gains the last twentieth of her speed."""
+
 
 def turning(rudder: float = 35.0, heading: float = 540.0) -> Programme:
     """Turning circle: rudder to `rudder` degrees until the heading has changed by `heading` degrees.
@@ -54,8 +57,11 @@ def zigzag(rudder: float = 10.0, heading: float | None = None, overshoots: int =
     """
     side = _side(rudder)
     switch = math.radians(abs(rudder) if heading is None else heading)
-    if not switch > 0.0:
-        raise SimulationError(f"a zig-zag cannot switch at {heading} deg", cure="give a positive heading")
+    if not 0.0 < switch < 0.5 * math.pi:
+        raise SimulationError(
+            f"a zig-zag cannot switch at {math.degrees(switch):g} deg",
+            cure="give a heading above 0 and below 90 deg",
+        )
     angle = abs(math.radians(rudder))
     phases = [
         Phase(target=side * angle, end=End(Condition.TURNED, switch, side), execute=True, begins="execute 1")
@@ -217,8 +223,15 @@ def crash_stop(astern: float = 1.0) -> Programme:
     return Programme("crash stop", (phase,), choices={"rate astern over rate ahead": astern})
 
 
-def williamson(rudder: float = 35.0, first: float = 60.0, short: float = 20.0, gain: float = 1.0) -> Programme:
-    """Williamson turn: back on the reciprocal course, on the own track.
+def williamson(
+    rudder: float = 35.0,
+    first: float = 60.0,
+    short: float = 20.0,
+    gain: float = 1.0,
+    integral: float = 0.05,
+    steady: float = STEADIED,
+) -> Programme:
+    """Williamson turn: back on the reciprocal course, on the own track, and steadied there.
 
     Parameters
     ----------
@@ -230,39 +243,56 @@ def williamson(rudder: float = 35.0, first: float = 60.0, short: float = 20.0, g
         Degrees short of the reciprocal course at which the autopilot takes over.
     gain : float
         Rudder angle over course error of that autopilot; its yaw rate gain is one ship length of the approach.
+    integral : float
+        Rudder angle over the integral of the course error in U0/L, once the course is reached: a ship that carries
+        weather helm is held on the course, not beside it.
+    steady : float
+        Acceleration in units of U0 and L below which the ship is steady on the reciprocal course.
 
     Notes
     -----
     Events: ``execute``; ``shift`` (rudder to the other side); ``reciprocal less`` (autopilot takes over);
-    ``end`` (heading first within 1 degree of the reciprocal course; the ship has yet to regain her speed).
+    ``reciprocal`` (heading first within 1 degree of the reciprocal course); ``extreme`` (heading furthest beyond it;
+    none when the ship does not swing over); ``end`` (steady on the reciprocal course, her speed regained).
     """
     side = _side(rudder)
     angle = abs(math.radians(rudder))
-    reciprocal = -side * math.pi
-    phases = (
-        Phase(
-            target=side * angle,
-            end=End(Condition.TURNED, math.radians(first), side),
-            execute=True,
-            begins="execute",
-            ends="shift",
-        ),
-        Phase(
-            target=-side * angle,
-            end=End(Condition.TURNED, math.pi - math.radians(short), -side),
-            ends="reciprocal less",
-        ),
-        Phase(
-            order=Order.COURSE,
-            target=reciprocal,
-            gains=(gain, gain, 0.0),
-            gains_scaled=True,
-            end=End(Condition.TURNED, math.pi - math.radians(1.0), -side),
-            ends="end",
-        ),
+    turn = Phase(
+        target=side * angle,
+        end=End(Condition.TURNED, math.radians(first), side),
+        execute=True,
+        begins="execute",
+        ends="shift",
     )
-    choices = {"rudder [deg]": rudder, "first [deg]": first, "short [deg]": short, "gain": gain}
-    return Programme(f"williamson {rudder:+g}", phases, choices=choices)
+    back = Phase(
+        target=-side * angle,
+        end=End(Condition.TURNED, math.pi - math.radians(short), -side),
+        ends="reciprocal less",
+    )
+    meet = Phase(
+        order=Order.COURSE,
+        target=-side * math.pi,
+        gains=(gain, gain, 0.0),
+        gains_scaled=True,
+        end=End(Condition.TURNED, math.pi - math.radians(1.0), -side),
+        ends="reciprocal",
+    )
+    hold = replace(
+        meet,
+        gains=(gain, gain, integral),
+        end=End(Condition.STEADY, steady),
+        ends="end",
+        watched={"extreme": End(Condition.YAW_RATE, 0.0, -side)},
+    )
+    choices = {
+        "rudder [deg]": rudder,
+        "first [deg]": first,
+        "short [deg]": short,
+        "gain": gain,
+        "integral gain [U0/L]": integral,
+        "steady below": steady,
+    }
+    return Programme(f"williamson {rudder:+g}", (turn, back, meet, hold), choices=choices)
 
 
 def course_keeping(
@@ -291,6 +321,10 @@ def course_keeping(
     -----
     Events: ``execute``, ``end``.
     """
+    if not (math.isfinite(gain) and math.isfinite(yaw_gain) and math.isfinite(integral)):
+        raise SimulationError(f"gains {gain}, {yaw_gain}, {integral} of an autopilot", cure="give finite numbers")
+    if not abs(course) <= 360.0:
+        raise SimulationError(f"a course of {course:g} deg", cure="give -360 to 360 deg from the original course")
     phase = Phase(
         order=Order.COURSE,
         target=math.radians(course),

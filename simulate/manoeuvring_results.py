@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 from ..core.errors import SimulationError
 from .criteria import imo_criteria
 from .environment import Environment
-from .indices import event_indices, indices
+from .manoeuvre_indices import event_indices, indices
 from .manoeuvre_names import KINDS
 from .parameter_scatter import HULL, MMG_COEFFICIENTS, value_of
 from .programme import Programme
-from .sail import sail
+from .sailing import sail
 from .steering_character import steering_frame
 from .trajectory import Trajectory
 from .vessel import Vessel
@@ -21,7 +21,7 @@ from .vessel import Vessel
 if TYPE_CHECKING:
     import pandas as pd
 
-    from .ensemble import Ensemble
+    from .ensembles import Ensemble
 
 COLUMNS = ("manoeuvre", "index", "value", "unit", "sd", "p05", "p95")
 """Columns of the table of indices; the last three are NaN without draws."""
@@ -124,7 +124,7 @@ def sail_manoeuvres(
         Independent scatter in per cent: of hull derivatives and of the coefficients of propeller and rudder, or, where
         the set has a covariance, which is drawn from then, of the latter alone.
     seed, workers : int
-        Of the ensemble; see :func:`~towtank.simulate.ensemble.ensemble`.
+        Of the ensemble; see :func:`~towtank.simulate.ensembles.ensemble`.
     progress : callable, optional
         ``progress(what, done, total)``.
 
@@ -151,7 +151,7 @@ def sail_manoeuvres(
     drawn = [one for one in programmes if one.name.startswith(KINDS)]
     spread = None
     if draws != 0 and drawn:
-        from .ensemble import ensemble
+        from .ensembles import ensemble
 
         spread = ensemble(
             vessel,

@@ -69,7 +69,7 @@ def _read(name: str) -> NamedManoeuvre:
         raise SimulationError(error.cause, cure=cure) from None
     if not re.fullmatch(rf"({dict(WORDS)[found.kind]})[ _]*({_NUMBERS})?", name.strip().lower()):
         raise SimulationError(
-            f"'{name}' cannot be read as a {found.kind}", cure=f"write e.g. '{_EXAMPLES[found.kind]}'"
+            f"'{name}' cannot be read: {found.kind}", cure=f"write e.g. '{_EXAMPLES[found.kind]}'"
         )
     return found
 

@@ -42,14 +42,14 @@ class Phase:
     Attributes
     ----------
     order : float
-        One of ``parameters.Order``:        Rudder angle, course, yaw rate or schedule.
+        One of ``parameters.Order``: rudder angle, course, yaw rate or schedule.
     target : float
         Rudder angle in rad (starboard positive), course in rad, yaw rate in rad/s.
     gains : (float, float, float)
         Of an autopilot: on the error, on the yaw rate in s, on the integral of the error in 1/s (course); for a yaw
         rate: on the error in s, none, on its integral.
     gains_scaled : bool
-        The gain on the yaw rate is in units of L/U0.
+        The gain on the yaw rate is in units of L/U0, that on the integral in U0/L.
     rate : float, optional
         Propeller rate that is ordered, in 1/s, or as a multiple of that of the approach.
     rate_is_factor : bool
@@ -156,7 +156,7 @@ class Programme:
                 phase.target,
                 phase.gains[0],
                 phase.gains[1] * (tick if phase.gains_scaled else 1.0),
-                phase.gains[2],
+                phase.gains[2] / (tick if phase.gains_scaled else 1.0),
                 math.nan if phase.rate is None else phase.rate,
                 phase.rate_is_factor,
                 phase.execute,

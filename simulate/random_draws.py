@@ -40,7 +40,7 @@ def standard_normals(draws: int, columns: int, seed: int = 0, sampling: Sampling
     Raises
     ------
     SimulationError
-        For an unknown sampling.
+        For an unknown sampling or a negative seed.
     """
     from scipy.special import ndtri
 
@@ -48,6 +48,8 @@ def standard_normals(draws: int, columns: int, seed: int = 0, sampling: Sampling
         raise SimulationError(
             f"sampling '{sampling}' is not known", cure=f"use one of {', '.join(get_args(Sampling))}"
         )
+    if seed < 0:
+        raise SimulationError(f"the seed {seed} is negative", cure="give 0 or more")
     if sampling == "antithetic":
         half = standard_normals((draws + 1) // 2, columns, seed)
         mirrored = np.repeat(half, 2, axis=0)

@@ -86,7 +86,7 @@ def repeated_indices(tables: Iterable[pd.DataFrame], confidence: float = 0.95) -
     Parameters
     ----------
     tables : iterable of DataFrame
-        One for each test, from :func:`~towtank.simulate.indices.indices`.
+        One for each test, from :func:`~towtank.simulate.manoeuvre_indices.indices`.
     confidence : float
 
     Returns

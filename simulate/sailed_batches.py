@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..core.errors import SimulationError
-from .indices import event_indices
+from .manoeuvre_indices import event_indices
 from .parameter_scatter import split_draws
 from .programme import Programme
-from .sail import DRAW_TOLERANCE, sail_events, status_in_words
+from .sailing import DRAW_TOLERANCE, sail_events, status_in_words
 from .vessel import Vessel
 
 if TYPE_CHECKING:

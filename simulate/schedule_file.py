@@ -10,7 +10,7 @@ from ..core.errors import ReadError
 from ..formats import read_table
 from .manoeuvres import schedule
 from .programme import Programme
-from .trajectory_file import read_channels
+from .trajectory_file import read_channels, require_file
 
 _NEEDED = ("time", "delta")
 
@@ -26,7 +26,7 @@ def read_schedule(path: str | Path) -> Programme:
     ReadError
         When the file, a column or a value is missing, a unit is not that of the channel, or the times do not ascend.
     """
-    channels = read_channels(read_table(path), path)
+    channels = read_channels(read_table(require_file(path)), path)
     missing = [name for name in _NEEDED if name not in channels]
     if missing:
         raise ReadError(

@@ -46,6 +46,9 @@ def steering_frame(vessel: Vessel, trajectories: Sequence[Trajectory]) -> pd.Dat
     else:
         # A set without covariance has no probability of stability, one without inertia no roots.
         known = stability.to_frame().dropna(subset="value")
+        # a probability from a linear propagation says nothing so far out in the tails
+        chance = known["quantity"].str.startswith("probability")
+        known["value"] = known["value"].where(~chance, known["value"].round(6))
         rows += [("hull", *row) for row in known.itertuples(index=False, name=None)]
         if stability.without_inertia:
             left_out.append(f"roots of the hull: {stability.without_inertia}")

@@ -12,7 +12,7 @@ import numpy as np
 from ..core.errors import SimulationError
 from .manoeuvre_names import read_manoeuvre_name
 from .programme import Programme
-from .sail import sail
+from .sailing import sail
 from .trajectory import Trajectory
 from .vessel import Vessel
 

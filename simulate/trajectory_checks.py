@@ -14,6 +14,12 @@ from .trajectory import Trajectory
 LONGEST_GAP = 0.05
 """A gap longer than this share of the record, and than five sampling intervals, is refused."""
 
+MOST_TURNS, MOST_TURNS_OF_A_SPIRAL = 10, 40
+"""Turns of the heading in a record; more are degrees that were taken for radians."""
+
+LEAST_HEADING = np.radians(0.1)
+"""A straight course holds no yaw rate to be compared with the slope of the heading."""
+
 _DEGREE, _MINUTE = 180.0 / np.pi, 60.0
 
 _YAW_RATE_FAULTS = (
@@ -104,13 +110,14 @@ def audit_channels(trajectory: Trajectory, file: str | Path | None = None) -> No
     if "psi" not in trajectory or len(trajectory) < 8:
         return
     psi, time = trajectory["psi"], trajectory["time"]
-    if np.ptp(psi) > 20.0 * np.pi:
+    most = MOST_TURNS_OF_A_SPIRAL if "spiral" in trajectory.manoeuvre.lower() else MOST_TURNS
+    if np.ptp(psi) > 2.0 * np.pi * most:
         raise AuditError(
             f"'psi' spans {np.ptp(psi):.4g} rad, {np.ptp(psi) / (2.0 * np.pi):.0f} turns",
             cure="write the unit 'psi [deg]' if it is in degrees",
             **where,
         )
-    if "r" in trajectory:
+    if "r" in trajectory and np.ptp(psi) > LEAST_HEADING:
         _audit_yaw_rate(time, psi, trajectory["r"], where)
     if all(name in trajectory for name in ("x", "y", "u", "v")):
         _audit_velocity(trajectory, where)

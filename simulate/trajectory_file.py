@@ -92,7 +92,7 @@ def read_trajectory(
     AuditError
         For channels that contradict each other: units, signs, axes.
     """
-    table = read_table(path)
+    table = read_table(require_file(path))
     found = _assign(table, columns or {}, path)
     missing = [name for name in ("time", "psi") if name not in found]
     if missing:
@@ -132,6 +132,18 @@ def read_trajectory(
     if not accept:
         audit_channels(trajectory, path)
     return trajectory
+
+
+def require_file(path: str | Path) -> Path:
+    """Refuse a path at which there is nothing.
+
+    Raises
+    ------
+    ReadError
+    """
+    if not Path(path).exists():
+        raise ReadError("file not found", cure="give the path of a table with a unit in each heading", file=path)
+    return Path(path)
 
 
 def read_channels(table: RawTable, path: str | Path) -> dict[str, FloatArray]:

@@ -11,8 +11,12 @@ from .manoeuvre_names import read_manoeuvre_name
 from .manoeuvres import schedule
 from .programme import Programme
 from .trajectory import Trajectory
+from .vessel import Vessel
 
 FloatArray = np.ndarray
+
+SLOWEST, FASTEST = 0.2, 2.5
+"""Approach speed of a trial over that of the ship; beyond, one of them is at another scale."""
 
 
 def from_order(trial: Trajectory, begin: float) -> Trajectory:
@@ -84,6 +88,18 @@ def _from(trial: Trajectory, channel: str, begin: float) -> FloatArray:
     return np.concatenate([[_at_time(trial, channel, begin)], trial[channel][trial["time"] > begin]])
 
 
+def require_scale(trial: Trajectory, speed: float, vessel: Vessel) -> None:
+    """Refuse a trial that approaches with a speed at which a ship of this size is not tried: it has another scale."""
+    ratio = speed / vessel.speed
+    if not SLOWEST < ratio < FASTEST:
+        raise ReadError(
+            f"the trial approaches with {speed:.4g} m/s, '{vessel.name}' of {vessel.ship.L:.4g} m is sailed at"
+            f" {vessel.speed:.4g} m/s",
+            cure="give a ship at the scale of the trial, check the unit of its speed, or say --speed",
+            file=trial.source or None,
+        )
+
+
 def require_side(measured: Trajectory) -> None:
     """Refuse a rudder that goes to the other side first than the name of the manoeuvre says."""
     named = read_manoeuvre_name(measured.manoeuvre)
@@ -96,5 +112,18 @@ def require_side(measured: Trajectory) -> None:
         raise ReadError(
             f"the rudder goes to {sides[0]} first, that of '{measured.manoeuvre}' to {sides[1]}",
             cure="name the other side, or turn the sign of the rudder angle (--rudder-port)",
+            file=measured.source or None,
+        )
+
+
+def require_approach(measured: Trajectory) -> None:
+    """Refuse the record of a pull-out that begins in the turn: it is sailed from the straight approach on."""
+    if not measured.manoeuvre.startswith("pull-out") or len(measured) < 2:
+        return
+    rate = np.gradient(measured["psi"], measured["time"])
+    if abs(float(rate[0])) > 0.5 * float(np.abs(rate).max()):
+        raise ReadError(
+            "the record of this pull-out begins in the turn",
+            cure="give it from the straight approach on, or index it alone",
             file=measured.source or None,
         )

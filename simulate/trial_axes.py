@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import ReadError
 from .events import FloatArray
-from .found_events import order_time
+from .found_states import order_time
 from .trajectory import Trajectory
 
 # World Geodetic System 1984.

@@ -11,16 +11,17 @@ import numpy as np
 
 from ..core.errors import SimulationError
 from .current import CurrentEstimate, estimate_current, remove_current
-from .found_events import order_time, with_events
-from .indices import event_indices, indices
+from .found_events import with_events
+from .found_states import order_time
+from .manoeuvre_indices import event_indices, indices
 from .manoeuvre_names import KINDS
 from .manoeuvring_results import percentages
 from .named_programmes import named_programme
 from .parameter_scatter import ParameterScatter, scatter_of, vessel_of_draw
 from .programme import Programme
-from .sail import sail
+from .sailing import sail
 from .trajectory import Trajectory
-from .trial_alignment import approach_speed, from_order, replayed, require_side
+from .trial_alignment import approach_speed, from_order, replayed, require_approach, require_scale, require_side
 from .vessel import Vessel
 
 if TYPE_CHECKING:
@@ -109,7 +110,8 @@ def validate_trial(
     over_ground : bool
         The velocities of the trial are over the ground; they are corrected for the current too.
     execute : float, optional
-        Time of the first order in s; default where the rudder begins to move.
+        Time of the first order in s; default where the rudder (the propeller, for a crash stop)
+        begins to move.
     draws, percent, seed
         Of the band; see :func:`~towtank.simulate.manoeuvring_results.sail_manoeuvres`.
     progress : callable, optional
@@ -135,12 +137,18 @@ def validate_trial(
     if without_current:
         current = estimate_current(trial)
         trial = remove_current(trial, current, execute=execute, over_ground=over_ground)
-    begin = order_time(trial, execute)
-    vessel = vessel.but(speed=approach_speed(trial, begin) if speed is None else speed)
+    if draws == 0 and percent is not None:
+        raise SimulationError("a scatter in per cent needs draws", cure="give a number of draws, e.g. 200")
+    begin = order_time(trial, execute, "n" if trial.manoeuvre == "crash stop" else "delta")
+    if speed is None:
+        speed = approach_speed(trial, begin)
+        require_scale(trial, speed, vessel)
+    vessel = vessel.but(speed=speed)
     tick = vessel.ship.L / vessel.speed
     programme = replayed(trial, begin) if replay else named_programme(trial.manoeuvre, tick)
     measured = from_order(trial, begin)
     if named:
+        require_approach(measured)
         require_side(measured)
     simulated = sail(vessel, programme, interval=0.02 * tick)
     if named:
@@ -244,7 +252,8 @@ def _index_table(
 
     if not _indexed(measured):
         return pd.DataFrame(columns=list(_INDEX_COLUMNS))
-    real = indices(measured, execute=0.0)
+    # a pull-out is executed in the turn that its first order began
+    real = indices(measured, execute=None if measured.manoeuvre.startswith("pull-out") else 0.0)
     model = indices(simulated, approach_speed=speed).set_index("index")["value"]
     rows = []
     for row in real.to_dict("records"):

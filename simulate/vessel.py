@@ -11,6 +11,7 @@ import numpy as np
 
 from ..core.derivative_set import DerivativeSet
 from ..core.errors import TowtankError
+from ..core.findings import Finding
 from ..core.ship import Ship
 from .cross_flow import CrossFlow
 from .propeller import Propeller, ThrustSurface
@@ -136,6 +137,8 @@ class Vessel:
         Terms in the drift angle are meant for ``-v/u`` (van Berlekom and Goddard 1972).
     sources : mapping of str to str
         Where parts beside the hull come from.
+    findings : tuple of Finding
+        Doubts about its parts; each trajectory tells them.
     """
 
     name: str
@@ -151,6 +154,7 @@ class Vessel:
     towing_force: float = 0.0
     beta_is_tangent: bool = False
     sources: Mapping[str, str] = field(default_factory=dict)
+    findings: tuple[Finding, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.speed > 0.0:

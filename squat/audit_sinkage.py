@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.findings import Finding
+from ..core.findings import Finding, Severity
 from ..formats.units import conversion
 from .sinkage_layout import SinkageLayout
 
@@ -36,10 +36,11 @@ def audit_sinkage(table: RawTable, layout: SinkageLayout) -> list[Finding]:
     layout : SinkageLayout
         The channels that are used; those of the file that are not are looked at for their names only.
     """
-    return [*_of_heading(table), *_of_time(table, layout), *_of_channels(table, layout)]
+    return [*heading_findings(table), *time_findings(table, layout.time), *_of_channels(table, layout)]
 
 
-def _of_heading(table: RawTable) -> list[Finding]:
+def heading_findings(table: RawTable) -> list[Finding]:
+    """Faults of the heading of a file: ``not-utf8``, ``units-row``, ``heading-width``, ``moment-named-as-angle``."""
     found = []
     dialect = table.dialect
     if dialect is not None and not dialect.encoding.startswith(("utf-8", "utf-16")):
@@ -94,9 +95,19 @@ def _of_heading(table: RawTable) -> list[Finding]:
     return found
 
 
-def _of_time(table: RawTable, layout: SinkageLayout) -> list[Finding]:
-    time = table.columns[layout.time]
-    place = f"channel {layout.time}"
+def time_findings(table: RawTable, name: str, *, gaps: Severity = "error") -> list[Finding]:
+    """Faults of the time: ``too-short``, ``missing-values``, ``time-not-increasing``, ``gap``.
+
+    Parameters
+    ----------
+    table : RawTable
+    name : str
+        The channel of time.
+    gaps : {"error", "warning", "info"}
+        How grave a gap is: hours at sea may have one, a run in a tank may not.
+    """
+    time = table.columns[name]
+    place = f"channel {name}"
     if len(time) < FEWEST_SAMPLES:
         message = f"{len(time)} samples, at least {FEWEST_SAMPLES} are needed"
         return [Finding("too-short", "error", message, table.path, place, "give the whole record")]
@@ -116,7 +127,7 @@ def _of_time(table: RawTable, layout: SinkageLayout) -> list[Finding]:
             f"{long.size} gap(s), the longest after {time[worst]:.6g} s: "
             f"{steps[worst]:.4g} s instead of {usual:.4g} s"
         )
-        return [Finding("gap", "error", message, table.path, place, "choose a window without the gap")]
+        return [Finding("gap", gaps, message, table.path, place, "choose a window without the gap")]
     return []
 
 
@@ -125,27 +136,40 @@ def _of_channels(table: RawTable, layout: SinkageLayout) -> list[Finding]:
     for name in layout.channels:
         if name == layout.time or len(table) < FEWEST_SAMPLES:
             continue
-        values = table.columns[name]
-        place = f"channel {name}"
-        known = values[np.isfinite(values)]
-        if not known.size:
-            found.append(
-                Finding(
-                    "all-missing", "error", "not one value is a number", table.path, place, "name another channel"
-                )
-            )
-            continue
-        if known.size < values.size:
-            message = f"{values.size - known.size} of {values.size} values are missing"
-            found.append(
-                Finding("missing-values", "error", message, table.path, place, "choose a window without them")
-            )
-        if name in layout.sinkage_channels and np.ptp(known) == 0.0:
-            message = f"every value is {known[0]:g}: the sensor did not measure"
-            found.append(
-                Finding("constant-channel", "error", message, table.path, place, "check the sensor and its cable")
-            )
-        found.extend(_of_size(table, layout, name, known))
+        found.extend(value_findings(table, name, varies=name in layout.sinkage_channels))
+        known = table.columns[name][np.isfinite(table.columns[name])]
+        if known.size:
+            found.extend(_of_size(table, layout, name, known))
+    return found
+
+
+def value_findings(table: RawTable, name: str, *, varies: bool, holes: Severity = "error") -> list[Finding]:
+    """Faults of the values of a channel: ``all-missing``, ``missing-values``, ``constant-channel``.
+
+    Parameters
+    ----------
+    table : RawTable
+    name : str
+    varies : bool
+        Whether a sensor that works cannot give the same value all the time.
+    holes : {"error", "warning", "info"}
+        How grave single missing values are.
+    """
+    values = table.columns[name]
+    place = f"channel {name}"
+    known = values[np.isfinite(values)]
+    if not known.size:
+        message = "not one value is a number"
+        return [Finding("all-missing", "error", message, table.path, place, "name another channel")]
+    found = []
+    if known.size < values.size:
+        message = f"{values.size - known.size} of {values.size} values are missing"
+        found.append(Finding("missing-values", holes, message, table.path, place, "choose a window without them"))
+    if varies and np.ptp(known) == 0.0:
+        message = f"every value is {known[0]:g}: the sensor did not measure"
+        found.append(
+            Finding("constant-channel", "error", message, table.path, place, "check the sensor and its cable")
+        )
     return found
 
 

@@ -8,12 +8,13 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.errors import CampaignError, ReadError
+from ..core.errors import CampaignError
 from ..core.findings import Finding, accept, stop_on_error
 from ..formats.raw_table import RawTable
 from ..formats.read import read_table
 from ..formats.units import SI_SYMBOLS, conversion
 from .audit_sinkage import audit_sinkage
+from .si_channel import require_channels, si_channel
 from .sinkage_layout import SinkageLayout
 
 
@@ -45,6 +46,8 @@ class SinkageRecord:
         What the audit said.
     name, sha256 : str
         File and its digest.
+    history : tuple of str
+        What was done to the record since it was read.
     """
 
     time: np.ndarray
@@ -59,6 +62,7 @@ class SinkageRecord:
     findings: tuple[Finding, ...] = ()
     name: str = ""
     sha256: str = ""
+    history: tuple[str, ...] = ()
 
     def sinkage_at(self, x: float, y: float = 0.0) -> np.ndarray:
         """Sinkage in m, positive down, of a point x forward and y to starboard of midship.
@@ -107,11 +111,7 @@ def read_sinkage(
         For the first fault that nobody accepted, named by its rule.
     """
     table = read_table(path)
-    missing = [name for name in layout.channels if name not in table.columns]
-    if missing:
-        raise ReadError(
-            f"there is no channel '{missing[0]}'", cure=f"the file has {', '.join(table.columns)}", file=path
-        )
+    require_channels(table, layout.channels)
     if units:
         table = replace(table, units={**table.units, **units})
     findings = accept([*table.findings, *audit_sinkage(table, layout)], accepted)
@@ -120,19 +120,19 @@ def read_sinkage(
 
 
 def _record(table: RawTable, layout: SinkageLayout, findings: tuple[Finding, ...]) -> SinkageRecord:
-    time = _in_si(table, layout.time, ("time",))
+    time = si_channel(table, layout.time, ("time",))
     heel, misfit = None, 0.0
     down = 1.0 if layout.sinkage_positive == "down" else -1.0
     if layout.heave:
         trim = _slope(table, layout)
-        midship = down * _in_si(table, layout.heave, ("length",)) - trim * layout.heave_x
+        midship = down * si_channel(table, layout.heave, ("length",)) - trim * layout.heave_x
     else:
-        readings = down * np.column_stack([_in_si(table, name, ("length",)) for name in layout.points])
+        readings = down * np.column_stack([si_channel(table, name, ("length",)) for name in layout.points])
         plane, misfit = _plane(np.array(list(layout.points.values()), dtype=float), readings)
         midship, trim = plane[0], plane[1]
         heel = plane[2] if len(plane) > 2 else None
-    speed = _in_si(table, layout.speed, ("velocity",)) if layout.speed else None
-    extra = {name: _in_si(table, name, ()) for name in layout.extra}
+    speed = si_channel(table, layout.speed, ("velocity",)) if layout.speed else None
+    extra = {name: si_channel(table, name) for name in layout.extra}
     return SinkageRecord(
         time,
         midship,
@@ -152,24 +152,9 @@ def _record(table: RawTable, layout: SinkageLayout, findings: tuple[Finding, ...
     )
 
 
-def _in_si(table: RawTable, name: str, wanted: tuple[str, ...]) -> np.ndarray:
-    unit = table.units.get(name, "")
-    if not unit:
-        return np.asarray(table.columns[name])
-    known = conversion(unit)
-    if wanted and known.dimension not in wanted:
-        raise ReadError(
-            f"is in {unit}, a {known.dimension}, and should be a {' or '.join(wanted)}",
-            cure="name another channel or declare its unit",
-            file=table.path or None,
-            place=f"channel {name}",
-        )
-    return np.asarray(table.columns[name] * known.factor)
-
-
 def _slope(table: RawTable, layout: SinkageLayout) -> np.ndarray:
     """Trim as a slope, positive by the bow, from an angle, a slope or a length."""
-    values = _in_si(table, layout.trim, ("angle", "slope", "dimensionless", "length"))
+    values = si_channel(table, layout.trim, ("angle", "slope", "dimensionless", "length"))
     unit = table.units.get(layout.trim, "")
     dimension = conversion(unit).dimension if unit else "slope"
     if dimension == "angle":

@@ -16,6 +16,9 @@ from .fairway import MIDSHIP_COEFFICIENT, Fairway, FairwayKind, blockage, width_
 KNOT = 1852.0 / 3600.0
 """Metres a second in one knot."""
 
+_ROUNDING = 1e-9
+"""A depth of 1.5 draughts is at the limit 1.5, whatever the last bit of the division."""
+
 
 @dataclass(frozen=True, eq=False)
 class Passage:
@@ -179,9 +182,9 @@ class SquatFormula:
         for limit in self.limits:
             values = np.broadcast_to(np.asarray(QUANTITIES[limit.quantity](passage), dtype=float), (n,))
             for item, value in zip(said, values, strict=True):
-                if value < limit.low:
+                if value < limit.low - _ROUNDING * abs(limit.low):
                     item.append(f"{limit.quantity} {value:.3g} below {limit.low:g}")
-                elif value > limit.high:
+                elif value > limit.high + _ROUNDING * abs(limit.high):
                     item.append(f"{limit.quantity} {value:.3g} above {limit.high:g}")
         return ["; ".join(item) for item in said]
 
@@ -225,13 +228,17 @@ def full_scale_passage(
     if ship.block_coefficient is None:
         raise TowtankError(f"ship '{ship.name}' has no displaced volume", cure="give volume in m3")
     if fairway.depth <= ship.T:
-        raise TowtankError(f"water depth {fairway.depth} m is not more than the draught {ship.T} m")
+        raise TowtankError(
+            f"water depth {fairway.depth} m is not more than the draught {ship.T} m",
+            cure="give more depth, or the draught of the loading",
+        )
     if speed.ndim != 1 or not len(speed) or not np.isfinite(speed).all() or (speed < 0).any():
         raise TowtankError("a speed is missing, negative or not a number", cure="give speeds in m/s")
     critical = float(np.sqrt(GRAVITY * fairway.depth))
     if (speed >= critical).any():
         raise TowtankError(
-            f"speed {speed.max():.3f} m/s is not below the critical {critical:.3f} m/s of this depth",
+            f"speed {speed.max():.3f} m/s is not below "
+            f"the critical {critical:.3f} m/s ({critical / KNOT:.4g} kn) of this depth",
             cure="no squat formula holds there; leave these speeds out",
         )
     if propellers not in (1, 2):

@@ -206,7 +206,7 @@ BAD: dict[str, tuple[tuple[object, ...], tuple[str, ...]]] = {
     "wrong column": (("--angle", "ph"), ("roll.csv", "no column 'ph'", "closest: phi")),
     "wrong time": (("--time", "seconds"), ("roll.csv", "no column 'seconds'", "the file has time, phi")),
     "unit of a force": (("--unit", "N"), ("roll.csv, channel phi", "unit 'N' does not measure roll")),
-    "unknown unit": (("--unit", "dge"), ("unit 'dge' is unknown", "deg")),
+    "unknown unit": (("--unit", "dge"), ("roll.csv, channel phi", "unit 'dge' is unknown", "deg")),
     "degrees for radians": (("--unit", "rad"), ("[angle-in-degrees]", "57.3", "--accept angle-in-degrees")),
     "unknown model": (("--model", "quadratik"), ("key 'fit'", "quadratik", "linear, quadratic, cubic")),
     "unknown method": (("--methods", "integrtion"), ("'integrtion' is no method", "closest: integration")),
@@ -274,6 +274,130 @@ def test_results_of_another_kind_are_kept(towtank, record, tmp_path):
     assert ended.status == 2
     assert "results of another kind" in ended.err
     assert [path.name for path in out.iterdir()] == ["provenance.json"]
+
+
+def test_one_speed_for_each_file(towtank, record, tmp_path):
+    write(tmp_path / "fast.csv", *roll(10.0, seed=5))
+    out = tmp_path / "out"
+    options = ("--unit", "deg", "--methods", "integration", "--restoring", "linear")
+    ended = towtank(
+        "decay", record, tmp_path / "fast.csv", *options, "--speed", "0,0.8", "--no-report", "--out", out
+    )
+    assert (ended.status, ended.err) == (0, "")
+    table = pd.read_csv(out / "against_speed.csv")
+    assert table["speed [m/s]"].unique().tolist() == [0.0, 0.8]
+    joined = towtank(
+        "decay", record, tmp_path / "fast.csv", *options, "--speed", "0,0.8", "--speed-terms", "b1*U",
+        "--no-report", "--out", out,
+    )  # fmt: skip
+    assert (joined.status, joined.err) == (0, "")
+    found = values(out)
+    assert found.loc["b1*U", "lower95"] < 0.0 < found.loc["b1*U", "upper95"]
+    assert not (out / "against_speed.csv").exists()
+    curve = pd.read_csv(out / "equivalent_damping.csv")
+    assert curve["speed [m/s]"].unique().tolist() == [0.0, 0.8]
+
+
+def test_full_scale_is_the_default(towtank, tmp_path):
+    """The same decay in seconds of the ship: B44-hat does not know the scale."""
+    time, angle = roll()
+    (tmp_path / "ship.toml").write_text(SHIP)
+    hats = {}
+    for scale in (1.0, 68.0):
+        file = write(tmp_path / f"at{scale:g}.csv", time * np.sqrt(68.0 / scale), angle)
+        ended = towtank(
+            "decay", file, "--unit", "deg", "--ship", tmp_path / "ship.toml", "--methods", "integration",
+            *(() if scale == 1.0 else ("--scale", scale)), "--no-report", "--out", tmp_path / f"out{scale:g}",
+        )  # fmt: skip
+        assert (ended.status, ended.err) == (0, "")
+        hats[scale] = pd.read_csv(tmp_path / f"out{scale:g}" / "equivalent_damping.csv")["B44-hat [-]"]
+    np.testing.assert_allclose(hats[1.0], hats[68.0], rtol=1e-4)
+
+
+def radiation(path: Path) -> Path:
+    """Table of radiation of a second-order memory at model scale."""
+    omega = np.linspace(0.2, 20.0, 60)
+    s = 1j * omega
+    kernel = 60.0 * s / (s**2 + 3.0 * s + 15.0)
+    table = {"omega [rad/s]": omega, "B44 [N m s]": kernel.real, "A44 [kg m2]": 50.0 + kernel.imag / omega}
+    pd.DataFrame(table).to_csv(path, index=False)
+    return path
+
+
+def test_memory_beside_the_methods_without_it(towtank, record, tmp_path):
+    out = tmp_path / "out"
+    ended = towtank(
+        "decay", record, "--unit", "deg", "--methods", "integration", "--memory", radiation(tmp_path / "b.csv"),
+        "--inertia", 300.0, "--out", out,
+    )  # fmt: skip
+    assert (ended.status, ended.err) == (0, "")
+    assert "radiation memory of order 2" in ended.out
+    found = values(out, "integration with memory")
+    assert found.loc["inertia", "value"] == 300.0
+    assert found.loc["b1", "value"] < values(out).loc["b1", "value"]
+    assert {"radiation.csv", "retardation.csv"} <= {path.name for path in out.iterdir()}
+    assert "Radiation memory" in (out / "report.html").read_text()
+
+
+def voyage(path: Path) -> Path:
+    """Roll in degrees of a light ship in a broad sea."""
+    rng = np.random.default_rng(1)
+    time = 0.1 * np.arange(12000)
+    angle, rate, position = np.zeros(time.size), 0.0, 0.0
+    for k, push in enumerate(0.03 * rng.standard_normal(time.size)):
+        rate += 0.1 * (push - 0.04 * rate - 0.36 * position)
+        position += 0.1 * rate
+        angle[k] = np.degrees(position)
+    return write(path, time, angle)
+
+
+def test_roll_at_sea(towtank, tmp_path):
+    file, out = voyage(tmp_path / "voyage.csv"), tmp_path / "out"
+    ended = towtank("decay", file, "--unit", "deg", "--at-sea", "--methods", "random decrement", "--out", out)
+    assert (ended.status, ended.err) == (0, "")
+    assert sorted(path.name for path in out.iterdir()) == [
+        "at_sea.csv", "damping.json", "equivalent_damping.csv", "excitations.csv", "provenance.json", "report.html",
+    ]  # fmt: skip
+    table = pd.read_csv(out / "at_sea.csv")
+    omega = table[table["name"] == "omega"]
+    assert (np.abs(omega["value"] - 0.6) < 4.0 * omega["std"]).all()
+    assert "random decrement" in ended.out
+    again = towtank(
+        "decay", file, "--unit", "deg", "--at-sea", "--methods", "random decrement", "--period", 10, "--json"
+    )
+    assert json.loads(again.out)["records"][0]["guess from"] == "period 10 s given"
+
+
+def test_what_the_sea_does_not_tell_is_refused(towtank, tmp_path):
+    time = np.arange(0.0, 12.0, 0.05)
+    file = write(tmp_path / "swell.csv", time, 5.0 * np.sin(3.0 * time + 0.2))
+    ended = towtank(
+        "decay", file, "--unit", "deg", "--at-sea", "--methods", "joint fit", "--out", tmp_path / "out"
+    )
+    assert (ended.status, ended.out, ended.err.count("\n")) == (2, "", 1)
+    for part in ("swell.csv", "parameters are asked", "c1 trades with f and we", "random decrement"):
+        assert part in ended.err, ended.err
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "parts"),
+    [
+        (("--period", 9), ("--period is given without --at-sea", "add --at-sea")),
+        (("--inertia", 9), ("--inertia is given without --memory",)),
+        (("--speed", "0,1,2"), ("--speed has 3 numbers for 1 file(s)", "one for each file")),
+        (("--speed", "fast"), ("--speed fast is no number",)),
+        (("--at-sea", "--methods", "joint"), ("'joint' is no method", "closest: joint fit")),
+        (("--at-sea", "--memory", "roll.csv"), ("[memory] belongs to free decays",)),
+        (("--memory", "nil.csv"), ("nil.csv", "not found")),
+    ],
+)
+def test_options_that_do_not_fit(options, parts, towtank, record, tmp_path):
+    ended = towtank("decay", record, "--unit", "deg", *options, "--out", tmp_path / "out")
+    assert (ended.status, ended.out, ended.err.count("\n")) == (2, "", 1)
+    for part in parts:
+        assert part in ended.err, ended.err
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.skipif(not KVLCC2.exists(), reason="the open measurements are not here")

@@ -33,10 +33,17 @@ def test_demo_prints_both_tables_and_the_way_to_the_reports(towtank, tmp_path):
     assert (status, err) == (0, "")
     assert "DTC static drift" in out
     assert "DTMB 5512" in out
-    for folder in ("dtc-static-drift", "dtmb5512-virtual-pmm"):
+    assert "20/20 zig-zag: first overshoot" in out
+    for folder in ("dtc-static-drift", "dtmb5512-virtual-pmm", "kvlcc2-virtual-manoeuvres"):
         results = tmp_path / "demo" / folder / "results"
         assert str(results / "report.html") in out
         assert (results / "report.html").stat().st_size > 50_000
+    sailed = (tmp_path / "demo" / "kvlcc2-virtual-manoeuvres" / "results" / "report.html").read_text(
+        encoding="utf-8"
+    )
+    assert "Virtual data." in sailed
+    for shown in ("turning +35: 40 draws", "overshoot 2 over 200 draws", "IMO standards for ship manoeuvrability"):
+        assert shown in sailed
 
 
 def test_run_writes_what_it_promises(towtank, campaign, tmp_path):

@@ -1,4 +1,4 @@
-"""``towtank sets``, ``show``, ``convert``, ``export`` and ``compare``."""
+"""``towtank sets``, ``show``, ``convert`` and ``export``."""
 
 from __future__ import annotations
 
@@ -97,7 +97,6 @@ def test_convert_scales_by_froude_and_takes_a_speed(towtank, tmp_path):
         (("convert", "kvlcc2", "--to", "lt,primeval"), "unknown convention 'primeval' -> use one of mmg, prime"),
         (("export", "kvlcc2", "--for", "ansys"), "'ansys' is not an export -> use one of csv"),
         (("export", "kvlcc2", "--for", "xlsx"), "give a file with --out"),
-        (("compare", "kvlcc2", "nothing"), "'nothing' is neither a file nor a published set -> did you mean"),
         (("show", "kvlc2"), "did you mean kvlcc2"),
     ],
 )
@@ -114,12 +113,3 @@ def test_export_writes_a_file(towtank, tmp_path, target):
     assert ended == (0, f"written: {path}\n", "")
     assert path.stat().st_size > 300
     assert [one.name for one in tmp_path.iterdir()] == [path.name]
-
-
-def test_compare_writes_its_table(towtank, tmp_path):
-    out = tmp_path / "comparison.csv"
-    ended = towtank("compare", "dtmb5512-efd", "dtmb5512-cfd", "--out", out)
-    assert ended.status == 0
-    assert "BS =" in ended.out
-    table = pd.read_csv(out)
-    assert {"name", "A", "B", "z", "verdict"} <= set(table)

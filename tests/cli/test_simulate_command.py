@@ -152,7 +152,7 @@ BAD = {
     "twice": (["kvlcc2", "--turning", "35", "--turning", "35"], ("asked for twice", "once")),
     "unknown option": (["kvlcc2", "--zagzig", "20/20"], ("--zagzig", "towtank simulate --help")),
     "negative speed": (["kvlcc2", "--speed", "-1"], ("-1 m/s is not positive", "--speed")),
-    "missing schedule": (["kvlcc2", "--schedule", "helm.csv"], ("helm.csv", "check")),
+    "missing schedule": (["kvlcc2", "--schedule", "helm.csv"], ("helm.csv", "give the path")),
     "missing environment": (["kvlcc2", "--environment", "sea.toml"], ("sea.toml", "file not found")),
     "draws of nothing": (["kvlcc2", "--draws", "50"], ("'kvlcc2' has no covariance", "--percent 5")),
     "one draw": (["kvlcc2", "--draws", "1", "--percent", "5"], ("1 draws has no spread", "1000")),

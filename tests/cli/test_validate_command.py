@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 
 from towtank.simulate.manoeuvres import turning, zigzag
-from towtank.simulate.sail import sail
+from towtank.simulate.sailing import sail
 from towtank.simulate.ships import named_ship
 
 CURRENT = (0.05, -0.03)
@@ -87,7 +87,7 @@ def test_the_course_and_the_time_of_the_order_do_not_matter(towtank, trials, tmp
 
 
 def expected(vessel) -> float:
-    from towtank.simulate.indices import indices
+    from towtank.simulate.manoeuvre_indices import indices
 
     return float(indices(sail(vessel, turning(35.0))).set_index("index").loc["tactical diameter", "value"])
 

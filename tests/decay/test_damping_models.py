@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from towtank.core.errors import FitError
-from towtank.decay.damping_models import DampingModel, damping_model, split_speed_term, term_unit
+from towtank.decay.damping_models import DampingModel, damping_model, damping_words, split_speed_term, term_unit
 
 
 def test_words_of_the_field():
@@ -68,3 +68,8 @@ def test_fixed_terms_are_not_free():
     with pytest.raises(FitError, match="b2 is not given"):
         model.complete({"b1": 1.0})
     assert model.with_fixed(b2=0.1).free == ("b1",)
+
+
+@pytest.mark.parametrize("words", ["linear", "quadratic", "linear+cubic", "linear+quadratic+cubic"])
+def test_damping_in_words(words):
+    assert damping_words(damping_model(words)) == words

@@ -9,6 +9,9 @@ from towtank.core.ship import Ship
 from towtank.decay.compare import DecayComparison
 from towtank.decay.decay_analysis import analyse_decays, disagreements, run_decay_campaign
 from towtank.decay.decay_campaign import checked_campaign
+from towtank.decay.decay_input import decay_from_table
+from towtank.decay.equation import simulate_decay
+from towtank.decay.restoring_curve import RestoringCurve
 from towtank.decay.shipped_decay import write_decay_campaign
 
 TRUTH = (0.02, 0.3, 0.0, 0.36, 0.0, 0.0)
@@ -115,3 +118,30 @@ def test_shipped_campaign_reads_back(tmp_path):
     data = json.loads(json.dumps(analysis.to_dict()))
     assert data["format"] == "towtank damping 1"
     assert len(data["groups"][0]["results"]) == 9
+
+
+def test_lever_curve_of_a_campaign(make_decay):
+    """A pendulum: levers of a sine explain it with c1 alone."""
+    degrees = np.arange(0.0, 61.0, 5.0)
+    levers = [[float(one), float(np.sin(np.radians(one)))] for one in degrees]
+    fit = {"methods": ["integration"], "gz": levers}
+    curve = RestoringCurve.from_levers(np.radians(degrees), np.sin(np.radians(degrees)))
+    time = np.arange(0.0, 80.0, 0.1)
+    value = simulate_decay(time, (0.6, 0.0), np.array([0.04, 0.2, 0.0, 0.36, 0.0, 0.0]), curve=curve)[:, 0]
+    made = decay_from_table({"time": time, "phi": value}, unit="rad")
+    (group,) = analyse_decays(campaign(fit=fit), [made]).groups
+    assert group.verdict is None
+    np.testing.assert_allclose(group.preferred.values, [0.04, 0.2, 0.36], rtol=1e-3)
+    assert group.preferred.model.label == "b1+b2, c1 GZ"
+    for wrong in ({"gz": levers, "restoring": "cubic"}, {"gz": levers[::-1]}):
+        with pytest.raises(CampaignError, match="gz"):
+            campaign(fit=wrong)
+
+
+def test_standard_forms_stand_in_the_json(make_decay):
+    data = analyse_decays(campaign(), [record(make_decay)]).to_dict()["groups"][0]
+    assert data["extinction"]["b"]["value"] == pytest.approx(4.0 / 3.0 * 0.3 * np.radians(1.0), rel=0.05)
+    assert data["extinction"]["b"]["unit"] == "1/deg"
+    assert [row["angle [deg]"] for row in data["bertin"]] == pytest.approx(
+        [10.0, 12.5, 15.0, 17.5, 20.0, 22.5, 25.0]
+    )

@@ -60,6 +60,13 @@ def test_file_without_a_unit(tmp_path):
     assert len(read_decay(path, unit="rad").sha256) == 64
 
 
+def test_a_unit_that_nobody_knows_names_file_and_channel(tmp_path):
+    path = tmp_path / "run.csv"
+    pd.DataFrame(table()).to_csv(path, index=False)
+    with pytest.raises(ReadError, match=r"run\.csv, channel phi: unit 'dge' is unknown -> "):
+        read_decay(path, unit="dge")
+
+
 def test_printed_unit_is_used_and_a_contradiction_told(tmp_path):
     path = tmp_path / "run.csv"
     data = table()

@@ -7,6 +7,8 @@ import pytest
 from towtank.core.errors import FitError
 from towtank.core.ship import Ship
 from towtank.decay.decay_input import decay_from_table, read_decay
+from towtank.decay.derivation_fit import fit_derivation
+from towtank.decay.energy_method import fit_energy_method
 
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data" / "decay_kvlcc2"
 
@@ -64,10 +66,25 @@ def test_cut_by_time_and_automatically(make_decay, literature):
 
 def test_derivatives_are_those_of_the_motion(make_decay, literature):
     record = make_decay(literature, step=0.05).with_derivatives()
-    inner = slice(100, -100)
-    x, v, a = record.value[inner], record.rate[inner], record.acceleration[inner]
+    x, v, a = record.value, record.rate, record.acceleration
     balance = a + 0.04 * v + 0.15 * np.abs(v) * v + 0.3 * v**3 + 0.36 * x
     assert np.abs(balance).max() < 5e-3 * np.abs(a).max()
+
+
+def test_derivatives_of_a_record_that_begins_at_the_release_are_fit_to_use(make_decay):
+    """The ends that the filter falsifies are gone: both estimators that take the derivatives stay right."""
+    coefficients = (0.04, 0.2, 0.0, 0.36, 0.0, 0.0)
+    record = make_decay(coefficients, step=0.05)
+    derived = record.with_derivatives()
+    lost = round(0.5 * record.period / 0.05)
+    assert derived.time[0] == pytest.approx(record.time[lost])
+    assert f"{lost} samples dropped at both ends" in derived.steps[-1]
+    for fit in (fit_derivation, fit_energy_method):
+        result = fit(derived)
+        assert result.findings == () or {item.rule for item in result.findings} == {"inseparable"}
+        np.testing.assert_allclose(result.values, [0.04, 0.2, 0.36], rtol=0.015)
+    with pytest.raises(FitError, match="left between the ends"):
+        make_decay(coefficients, duration=11.0).with_derivatives()
 
 
 @pytest.mark.skipif(not DATA.is_dir(), reason="open measurements are not here")

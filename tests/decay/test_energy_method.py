@@ -5,6 +5,7 @@ from towtank.core.errors import FitError
 from towtank.decay.damping_models import damping_model
 from towtank.decay.energy_method import fit_energy_method
 from towtank.decay.restoring_curve import RestoringCurve
+from towtank.decay.virtual_decay import demo_plan, virtual_decay
 
 
 @pytest.mark.parametrize("b1", [0.02, 0.06, 0.15])
@@ -40,3 +41,13 @@ def test_lever_curve(make_decay):
 def test_too_short(make_decay, literature):
     with pytest.raises(FitError):
         fit_energy_method(make_decay(literature, duration=8.0))
+
+
+def test_noisy_velocities_are_told():
+    """The shipped record: honest errors, but a set of coefficients that does not reproduce the motion."""
+    record = virtual_decay(demo_plan()).record.free_part().centred("drift")
+    result = fit_energy_method(record)
+    assert "motion-missed" in [item.rule for item in result.findings]
+    assert not result.trusted
+    low, high = result.conf_int()[result.position("b1")]
+    assert low < 0.0042 < high

@@ -41,6 +41,26 @@ def test_bias_of_the_method_is_flagged(make_decay, literature):
     assert result.diagnostics.details["bias of the method"]["b1"] == pytest.approx(0.01)
 
 
+def test_a_set_of_coefficients_that_misses_the_motion_is_flagged(make_decay):
+    """A phase that runs away by more than the same terms need: told, though R2 would pass."""
+    coefficients = (0.04, 0.2, 0.0, 0.36, 0.0, 0.0)
+    record = make_decay(coefficients, noise=0.1)
+    off = outcome(record, {"b1": 0.04, "b2": 0.2, "c1": 0.365})
+    assert off.diagnostics.r2 > 0.95
+    (said,) = [item for item in off.findings if item.rule == "motion-missed"]
+    assert "times as far from the record" in said.message
+    assert not off.trusted
+    right = outcome(record, {"b1": 0.04, "b2": 0.2, "c1": 0.36})
+    assert "motion-missed" not in [item.rule for item in right.findings]
+
+
+def test_a_motion_that_is_good_enough_is_not_missed(make_decay):
+    record = make_decay((0.04, 0.2, 0.0, 0.36, 0.0, 0.0))
+    near = outcome(record, {"b1": 0.04, "b2": 0.2, "c1": 0.3602})
+    assert near.diagnostics.r2 > 0.999
+    assert "motion-missed" not in [item.rule for item in near.findings]
+
+
 def test_few_cycles_are_flagged(make_decay, literature):
     result = fit_integration(make_decay(literature, duration=24.0))
     assert "few-cycles" in [item.rule for item in result.findings]

@@ -7,7 +7,7 @@ import pytest
 
 from towtank.core.errors import FitError
 from towtank.decay.equation import simulate_decay
-from towtank.decay.fluid_memory import simulate_memory_decay
+from towtank.decay.fluid_memory import memory_state, simulate_memory_decay
 from towtank.decay.transfer_function import TransferFunction
 
 INERTIA = 8e10
@@ -76,3 +76,37 @@ def test_divergence_ends_in_missing_values():
 def test_what_is_no_decay_is_refused(time, terms, inertia, message):
     with pytest.raises(FitError, match=message):
         simulate_memory_decay(time, (0.1, 0.0), terms, MEMORY, inertia)
+
+
+@pytest.mark.parametrize("column", range(9))
+def test_sensitivities_are_the_gradient(column):
+    parameters = np.array([0.0075, 0.03, 0.2, 0.0987, 0.05, 0.05, 0.12, 0.01, INERTIA])
+    time = TIME[:200]
+    state = np.array([0.03, -0.02, 0.01])
+
+    def path(values: np.ndarray, **more: bool) -> np.ndarray:
+        terms = dict(zip(("b1", "b2", "b3", "c1", "c3", "c5"), values[:6]))
+        return simulate_memory_decay(
+            time, (values[6], values[7]), terms, MEMORY, float(values[8]), state=state, **more
+        )
+
+    step = 1e-6 if column < 8 else 1e-4 * INERTIA
+    up, down = parameters.copy(), parameters.copy()
+    up[column] += step
+    down[column] -= step
+    numeric = (path(up) - path(down)) / (2.0 * step)
+    exact = path(parameters, sensitivities=True)[:, 2 + 2 * column : 4 + 2 * column]
+    np.testing.assert_allclose(exact, numeric, atol=1e-6 * np.abs(numeric).max())
+
+
+def test_state_of_the_memory_continues_a_decay():
+    """A decay that is cut and goes on with the state from its past is the whole decay."""
+    time = np.arange(0.0, 60.0, 0.05)
+    whole = simulate_memory_decay(time, (0.12, 0.0), TERMS, MEMORY, INERTIA)
+    cut = 337
+    state = memory_state(time[: cut + 1], whole[: cut + 1, 0] + 0.3, MEMORY)
+    again = simulate_memory_decay(time[cut:], tuple(whole[cut]), TERMS, MEMORY, INERTIA, state=state)
+    assert again == pytest.approx(whole[cut:], abs=2e-6)
+    forgetful = simulate_memory_decay(time[cut:], tuple(whole[cut]), TERMS, MEMORY, INERTIA)
+    assert np.abs(forgetful - whole[cut:]).max() > 1e-4
+    assert memory_state(time[:1], whole[:1, 0], MEMORY) == pytest.approx(np.zeros(3))

@@ -80,6 +80,8 @@ def test_commands_exist_with_their_options(page):
         for line in commands(body):
             words = shlex.split(line, comments=True)[1:]
             command = known[words[0]]
+            if hasattr(command, "commands"):
+                command = command.commands[words[1]]
             options = {
                 name for parameter in command.params for name in (*parameter.opts, *parameter.secondary_opts)
             }

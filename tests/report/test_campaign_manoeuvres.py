@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import csv
+import json
 from pathlib import Path
 
 import pytest
 
-from towtank.core.errors import CampaignError
+from towtank.core.errors import CampaignError, TowtankError
 from towtank.datasets import load_set
 from towtank.pmm.campaign import Campaign
 from towtank.pmm.campaign_file import Simulate, load_campaign_file
@@ -15,7 +16,7 @@ from towtank.pmm.laboratory import Laboratory
 from towtank.pmm.noise import Noise
 from towtank.pmm.standard_matrices import standard_matrix
 from towtank.pmm.virtual_campaign import synthesize
-from towtank.report.campaign_manoeuvres import check_simulate, sail_campaign
+from towtank.report.campaign_manoeuvres import check_simulate, sail_campaign, sailed_provenance, sailed_text
 from towtank.report.outputs import write_results
 
 SECTION = """
@@ -70,11 +71,33 @@ def test_the_fitted_set_sails_as_the_truth_does(result, tmp_path):
     assert "overshoot 2 over 30 draws" in page
 
 
+def test_a_fault_inside_the_environment_file_is_told_at_once(tmp_path):
+    (tmp_path / "sea.toml").write_text("[current]\nspeed = -1\n", encoding="utf-8")
+    with pytest.raises(TowtankError, match=r"sea.toml, key 'current.speed'"):
+        check_simulate(Simulate(environment="sea.toml"), tmp_path / "campaign.toml", load_set("kvlcc2").ship)
+
+
+def test_terminal_and_provenance_tell_verdicts_and_doubts(result, tmp_path):
+    sailed = sail_campaign(result)
+    text = sailed_text(sailed)
+    assert "'virtual KVLCC2' was sailed, 30 draws: turning +35, zigzag +10/10" in text
+    assert "turning: tactical diameter" in text
+    assert "doubt: set 'virtual KVLCC2'" in text
+    write_results(result, tmp_path / "results", report=False, sailed=sailed)
+    facts = json.loads((tmp_path / "results" / "provenance.json").read_text(encoding="utf-8"))
+    (one,) = facts["manoeuvres"]
+    assert one["vessel"] == "virtual KVLCC2"
+    assert one["ensemble"]["draws"] == 30
+    assert len(one["doubts"]) >= 1
+
+
 def test_a_set_that_cannot_be_sailed_is_told_with_its_cause(made, tmp_path):
     result = Campaign.load(with_section(made, "\n[simulate]\ndraws = 0\n", "alone")).run(compare=False)
     (one,) = sail_campaign(result)
     assert one.results is None
     assert "a propeller" in one.cause
+    assert "was not sailed: set 'virtual KVLCC2' cannot be sailed" in sailed_text([one])
+    assert "a propeller" in sailed_provenance([one])[0]["not sailed"]
     names = {path.name for path in write_results(result, tmp_path / "results")}
     assert "indices.csv" not in names
     page = (tmp_path / "results" / "report.html").read_text(encoding="utf-8")
@@ -92,6 +115,13 @@ def test_without_the_section_nothing_is_sailed(made):
         (Simulate(manoeuvres=["turning 35", "zigzac 10/10"]), "simulate.manoeuvres", "'zigzac 10/10'"),
         (Simulate(manoeuvres=["zigzag 10-10"]), "simulate.manoeuvres", "cannot be read"),
         (Simulate(environment="sea.toml"), "simulate.environment", "'sea.toml' not found"),
+        (Simulate(draws=1), "simulate.draws", "one draw has no spread"),
+        (
+            Simulate(manoeuvres=["turning 35", "turning +35"]),
+            "simulate.manoeuvres",
+            "'turning +35' is asked for twice",
+        ),
+        (Simulate(ship_from="kvlcc2", manoeuvres=["turning 350"]), "simulate.manoeuvres", "stops at 35 deg"),
     ],
 )
 def test_what_does_not_exist_is_refused_at_once(settings, key, said, tmp_path):

@@ -118,7 +118,7 @@ def test_text_table_has_the_digits_of_the_uncertainty_and_the_totals() -> None:
     text = comparison_text(compare_sets(a, made({"Yv": -0.33, "Nv": -0.11, "Yr": 0.05}, sd=0.003)))
     line = next(row for row in text.splitlines() if row.startswith("Yv"))
     assert line.split() == [
-        "Yv", "-0.3000", "0.0040", "-0.3300", "0.0030", "+10.0", "-10.0", "10.0", "-6.0", "differ",
+        "Yv", "-0.3000", "0.0040", "-0.3300", "0.0030", "-0.0300", "+10.0", "-10.0", "10.0", "-6.0", "differ",
     ]  # fmt: skip
     assert "Q = 0.100" in text
     assert "BS = +2/2" in text

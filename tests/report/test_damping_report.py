@@ -13,7 +13,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from towtank.core.errors import TowtankError
-from towtank.decay.decay_analysis import DecayAnalysis, analyse_decays, run_decay_campaign
+from towtank.decay.decay_analysis import analyse_decays, run_decay_campaign
+from towtank.decay.decay_results import DecayAnalysis
 from towtank.decay.shipped_decay import write_decay_campaign
 from towtank.report.damping_drawings import draw_group, true_damping
 from towtank.report.damping_figures import (
@@ -93,6 +94,9 @@ def test_heave_is_shown_in_mm() -> None:
 def test_page_is_self_contained_and_names_everything(analysis: DecayAnalysis) -> None:
     page = render_damping_report(analysis)
     for anchor, title in SECTIONS.items():
+        if anchor in ("speeds", "memory"):
+            assert f'id="{anchor}"' not in page
+            continue
         assert f'<section id="{anchor}">' in page
         assert title in page
     assert "Virtual data." in page

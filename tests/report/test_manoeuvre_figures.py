@@ -17,7 +17,7 @@ from towtank.report.manoeuvre_figures import (
     manoeuvre_fan,
     trajectory_fan,
 )
-from towtank.simulate.ensemble import Ensemble, ensemble
+from towtank.simulate.ensembles import Ensemble, ensemble
 from towtank.simulate.manoeuvres import turning, zigzag
 from towtank.simulate.ships import named_ship
 

@@ -7,8 +7,8 @@ import pytest
 from towtank.report.turning_figure import track, turning_circle
 from towtank.report.zigzag_figure import heading_and_rudder, speed_and_yaw_rate, spiral, zigzag
 from towtank.simulate import manoeuvres
-from towtank.simulate.indices import indices
-from towtank.simulate.sail import sail
+from towtank.simulate.manoeuvre_indices import indices
+from towtank.simulate.sailing import sail
 from towtank.simulate.ships import named_ship
 
 SHIP = named_ship("kvlcc2")

@@ -13,6 +13,12 @@ def test_grid_uncertainty_comes_from_the_printed_bounds():
     assert CASES["Table 3 to Table 4", "U_G"].computed == pytest.approx(0.0652, abs=1e-4)
 
 
+def test_uncertainty_of_the_fine_grid_is_an_eighth_of_the_printed_one():
+    case = CASES["Table 3, fine grid (independent computation)", "U_G of the fine grid, % of its force"]
+    assert case.verdict == "reproduced"
+    assert case.computed * 0.5645 / 100 == pytest.approx(0.0081, abs=2e-4)
+
+
 def test_friction_line_gives_table_8_to_the_digit():
     rows = [case for (where, _), case in CASES.items() if where.startswith("Table 8")]
     assert len(rows) == 8

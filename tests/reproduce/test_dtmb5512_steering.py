@@ -5,7 +5,7 @@ import pytest
 from towtank.core.errors import SimulationError
 from towtank.reproduce.paper_dtmb5512 import KEY
 from towtank.simulate.manoeuvres import turning
-from towtank.simulate.sail import sail
+from towtank.simulate.sailing import sail
 from towtank.simulate.ships import named_ship
 
 

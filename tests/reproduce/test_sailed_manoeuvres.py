@@ -4,7 +4,7 @@ import pytest
 
 from towtank.reproduce.sailed_manoeuvres import largest_heel, overshoots, turn, turn_after_approach
 from towtank.simulate.manoeuvres import turning
-from towtank.simulate.sail import sail
+from towtank.simulate.sailing import sail
 from towtank.simulate.ships import named_ship
 
 

@@ -15,7 +15,7 @@ from towtank.simulate.compiled_kernel import DIMENSIONS, LOWERED, Lowered, finge
 _CIRCLE = """
 import sys
 from towtank.simulate.manoeuvres import turning
-from towtank.simulate.sail import sail_events
+from towtank.simulate.sailing import sail_events
 from towtank.simulate.ships import named_ship
 print(*(float(x).hex() for x in sail_events(named_ship("kvlcc2"), turning(35)).events["heading 90"][0]))
 print("numba" in sys.modules)

@@ -38,10 +38,14 @@ def test_williamson_turn_comes_back_beside_its_track(rows, hull, side):
     events = rows(
         execute={"time": 10.0, "x": 0.0, "y": 0.0, "psi": 0.0},
         shift={"time": 60.0, "x": 200.0, "y": 60.0 * side, "psi": math.radians(60.0) * side},
-        end={"time": 400.0, "x": 350.0, "y": 40.0 * side, "psi": -math.pi * side},
+        reciprocal={"time": 400.0, "x": 350.0, "y": 45.0 * side, "psi": -math.radians(179.0) * side},
+        extreme={"time": 420.0, "x": 280.0, "y": 41.0 * side, "psi": -math.radians(184.0) * side},
+        end={"time": 500.0, "x": -80.0, "y": 40.0 * side, "psi": -math.pi * side},
     )
     found = williamson_indices(events, hull)
     assert found["side offset"] == pytest.approx(0.4)
+    assert found["course overshoot"] == pytest.approx(4.0)
+    assert found["time to steady course"] == pytest.approx(490.0)
     assert found["distance back"] == pytest.approx(3.5)
     assert found["time to reciprocal course"] == pytest.approx(390.0)
 

@@ -13,7 +13,7 @@ from towtank.simulate.environment import CALM, Current, Environment
 from towtank.simulate.environment_forces import current_velocity, wave_drift_forces, wind_forces
 from towtank.simulate.environment_layout import HEADER
 from towtank.simulate.manoeuvres import turning
-from towtank.simulate.sail import sail
+from towtank.simulate.sailing import sail
 from towtank.simulate.ships import named_ship
 from towtank.simulate.wave_drift import DriftTable, Waves
 from towtank.simulate.wind import Wind, blendermann_coefficients

@@ -20,7 +20,7 @@ from towtank.simulate.equations import cross_flow_drag, hull_forces
 from towtank.simulate.manoeuvres import schedule, turning
 from towtank.simulate.packing import pack
 from towtank.simulate.parameters import NODES, Node, Parameter
-from towtank.simulate.sail import sail, sail_events
+from towtank.simulate.sailing import sail, sail_events
 from towtank.simulate.ships import named_ship
 from towtank.simulate.vessel import SteeringGear, Vessel
 
@@ -106,7 +106,7 @@ def test_linear_ship_follows_the_matrix_exponential():
 _TWIN = """
 import numpy as np
 from towtank.simulate.manoeuvres import turning, zigzag
-from towtank.simulate.sail import sail_events
+from towtank.simulate.sailing import sail_events
 from towtank.simulate.ships import named_ship
 for name, programme in (("kvlcc2", turning(35, heading=70.0)), ("s175-4dof", zigzag(10, 3, overshoots=1))):
     events = sail_events(named_ship(name), programme, tolerance=1e-3).events

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from towtank.simulate.ensemble import ensemble
+from towtank.simulate.ensembles import ensemble
 from towtank.simulate.first_order import propagate
-from towtank.simulate.indices import event_indices
+from towtank.simulate.manoeuvre_indices import event_indices
 from towtank.simulate.manoeuvres import turning, zigzag
 from towtank.simulate.parameter_scatter import scatter_of
-from towtank.simulate.sail import sail
+from towtank.simulate.sailing import sail
 from towtank.simulate.ships import named_ship
 
 KVLCC2 = named_ship("kvlcc2")

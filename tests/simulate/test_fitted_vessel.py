@@ -9,8 +9,12 @@ from towtank.core.derivative_set import DerivativeSet
 from towtank.core.errors import ConventionError, DatasetError, SimulationError
 from towtank.core.ship import Ship
 from towtank.datasets import load_set
+from towtank.simulate.cross_flow import CrossFlow
 from towtank.simulate.fitted_vessel import vessel_from_set
-from towtank.simulate.ships import named_ship
+from towtank.simulate.manoeuvres import initial_turning
+from towtank.simulate.sailing import sail
+from towtank.simulate.ships import named_ship, named_ships
+from towtank.simulate.validity import missing_coupling
 
 BARE = Ship("bare hull", 3.5, 0.635, 0.2275)
 
@@ -40,6 +44,28 @@ def test_resistance_is_asked_for():
     bare = fitted().subset(["Yv", "Yr", "Nv", "Nr"])
     with pytest.raises(SimulationError, match="resistance"):
         vessel_from_set(bare, like="kvlcc2")
+
+
+@pytest.mark.parametrize(("left_out", "lacking"), [("Nr", "damping of yaw"), ("Yv", "damping of sway")])
+def test_damping_is_asked_for(left_out, lacking):
+    names = [name for name in ("R0", "Yv", "Yr", "Nv", "Nr") if name != left_out]
+    with pytest.raises(SimulationError, match=f"cannot be sailed: it lacks the {lacking}"):
+        vessel_from_set(fitted().subset(names), like="kvlcc2")
+
+
+def test_cross_flow_drag_damps_too():
+    drag = CrossFlow([-0.5, 0.0, 0.5], [0.8, 0.8, 0.8], [1.0, 1.0, 1.0])
+    bare = fitted().subset(["R0", "Nv"])
+    assert vessel_from_set(bare, like="kvlcc2", cross_flow=drag).cross_flow is drag
+
+
+def test_coupling_that_was_not_measured_is_told():
+    vessel = vessel_from_set(fitted().subset(["R0", "Yv", "Nr"]), like="kvlcc2")
+    said = [found.message for found in sail(vessel, initial_turning(10.0)).provenance.findings]
+    assert sum("sway force does not depend on the yaw rate" in line for line in said) == 1
+    assert sum("yaw moment does not depend on the drift" in line for line in said) == 1
+    for ship in named_ships():
+        assert missing_coupling(named_ship(ship)) == [], ship
 
 
 def test_parts_of_a_named_ship_are_enlarged_to_the_hull():

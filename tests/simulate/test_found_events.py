@@ -1,12 +1,16 @@
 """Events found in samples against exact ones; noise, hunting rudders, and records that cannot be used."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from towtank.core.errors import AuditError, ReadError, TowtankError
 from towtank.simulate.found_events import find_events, with_events
+from towtank.simulate.manoeuvres import turning, williamson
+from towtank.simulate.sailing import sail
+from towtank.simulate.ships import named_ship
 from towtank.simulate.trajectory import Trajectory
 from towtank.simulate.turning_indices import turning_indices
 from towtank.simulate.zigzag_indices import zigzag_indices
@@ -178,7 +182,27 @@ def test_events_of_a_simulation_are_kept(circle, turn_names):
     assert with_events(turn.trajectory(), execute=0.0).events is not None
 
 
+@pytest.mark.parametrize("rudder", [35.0, -35.0])
+def test_williamson_turn_is_found_as_it_was_sailed(rudder):
+    known = sail(named_ship("kvlcc2"), williamson(rudder))
+    found = find_events(replace(known, events=None))
+    for name in ("execute", "shift", "reciprocal", "extreme", "end"):
+        for column in ("time", "x", "y", "psi"):
+            assert found.at(name, column) == pytest.approx(known.events.at(name, column), abs=0.02), (name, column)
+
+
 class TestFailures:
+    def test_williamson_turn_that_is_not_finished(self):
+        known = sail(named_ship("kvlcc2"), williamson(35.0))
+        early = known.frame[known["time"] < known.events.at("reciprocal less", "time")[0]]
+        with pytest.raises(ReadError, match=r"the record ends 20.6 deg beside the reciprocal course"):
+            find_events(replace(known, frame=early, events=None))
+
+    def test_williamson_turn_without_a_shift(self):
+        turn = sail(named_ship("kvlcc2"), turning(35.0))
+        with pytest.raises(ReadError, match="this is no Williamson turn"):
+            find_events(replace(turn, manoeuvre="williamson", events=None))
+
     def test_two_samples(self, hull):
         columns = {"time": [0.0, 1.0], "x": [0.0, 1.0], "y": [0.0, 0.0], "psi": [0.0, 0.1]}
         record = Trajectory.from_columns(columns, hull, "turning")
@@ -239,5 +263,3 @@ class TestFailures:
     def test_manoeuvre_without_a_name(self, circle):
         with pytest.raises(TowtankError, match="names no known manoeuvre"):
             find_events(circle().trajectory(manoeuvre="run 7"))
-        with pytest.raises(TowtankError, match="spiral are not looked for"):
-            find_events(circle().trajectory(manoeuvre="reverse spiral"))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from towtank.simulate.manoeuvres import course_keeping, crash_stop, schedule, turning, zigzag
-from towtank.simulate.sail import sail, sail_events
+from towtank.simulate.sailing import sail, sail_events
 from towtank.simulate.ships import named_ship
 from towtank.simulate.vessel import Engine
 

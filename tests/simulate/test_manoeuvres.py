@@ -18,7 +18,7 @@ from towtank.simulate.manoeuvres import (
     williamson,
     zigzag,
 )
-from towtank.simulate.sail import sail, sail_events
+from towtank.simulate.sailing import sail, sail_events
 from towtank.simulate.ships import named_ship
 from towtank.simulate.zigzag_indices import zigzag_indices
 
@@ -68,13 +68,30 @@ def test_reverse_spiral_finds_the_angle_of_a_steady_turn():
     assert math.degrees(events.at("steady 1", "delta")[0]) == pytest.approx(10.0, abs=0.1)
 
 
-def test_williamson_turn_comes_back_on_the_reciprocal_course_near_its_track():
-    events = sail_events(KVLCC2, williamson(35)).events
-    assert math.degrees(events.at("shift", "psi")[0]) == pytest.approx(60.0, abs=1e-9)
-    assert math.degrees(events.at("end", "psi")[0]) == pytest.approx(-179.0, abs=1e-9)
-    assert abs(events.at("end", "y")[0]) < 2.0 * KVLCC2.ship.L
+@pytest.mark.parametrize("rudder", [35, -35])
+def test_williamson_turn_is_steadied_on_the_reciprocal_course_near_its_track(rudder):
+    events = sail_events(KVLCC2, williamson(rudder)).events
+    side = math.copysign(1.0, rudder)
+    turned = {name: math.degrees(events.at(name, "psi")[0]) * side for name in events}
+    assert turned["shift"] == pytest.approx(60.0, abs=1e-9)
+    assert turned["reciprocal"] == pytest.approx(-179.0, abs=1e-9)
+    assert -190.0 < turned["extreme"] < -180.0
+    assert turned["end"] == pytest.approx(-180.0, abs=0.5)
+    assert abs(events.at("end", "r")[0]) < 0.005 * KVLCC2.speed / KVLCC2.ship.L
+    assert abs(events.at("end", "y")[0]) < 1.5 * KVLCC2.ship.L
+    assert events.at("end", "u")[0] > 0.9 * KVLCC2.speed
     # still ahead of the place of the order, where a man overboard would be
-    assert 0.0 < events.at("end", "x")[0] < 6.0 * KVLCC2.ship.L
+    assert 0.0 < events.at("reciprocal", "x")[0] < 6.0 * KVLCC2.ship.L
+
+
+def test_williamson_turn_of_a_ship_with_weather_helm_ends_on_the_course():
+    mariner = named_ship("mariner")
+    heading = {
+        gain: sail_events(mariner, williamson(-35, integral=gain, steady=2e-3)).events.at("end", "psi")[0]
+        for gain in (0.0, 0.05)
+    }
+    assert abs(math.degrees(heading[0.0]) - 180.0) > 1.0
+    assert abs(math.degrees(heading[0.05]) - 180.0) < 0.3
 
 
 def test_zigzag_returns_to_its_course_between_extreme_and_next_execute():

@@ -9,7 +9,7 @@ from towtank.core.errors import SimulationError, TermError
 from towtank.simulate.manoeuvres import turning
 from towtank.simulate.packing import pack
 from towtank.simulate.parameters import Parameter
-from towtank.simulate.sail import sail_events
+from towtank.simulate.sailing import sail_events
 from towtank.simulate.ships import named_ship
 
 KVLCC2 = named_ship("kvlcc2")

@@ -18,7 +18,7 @@ from towtank.simulate.parameter_scatter import (
     value_of,
     vessel_of_draw,
 )
-from towtank.simulate.sail import sail, sail_events
+from towtank.simulate.sailing import sail, sail_events
 from towtank.simulate.ships import named_ship
 
 KVLCC2 = named_ship("kvlcc2")

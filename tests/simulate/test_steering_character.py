@@ -7,7 +7,7 @@ import pytest
 
 from towtank.simulate.manoeuvres import turning, zigzag
 from towtank.simulate.nomoto import fit_nomoto
-from towtank.simulate.sail import sail
+from towtank.simulate.sailing import sail
 from towtank.simulate.ships import named_ship
 from towtank.simulate.stability import straight_line_stability
 from towtank.simulate.steering_character import COLUMNS, steering_frame

@@ -8,7 +8,7 @@ import pytest
 from towtank.core.errors import SimulationError
 from towtank.simulate.manoeuvres import turning, zigzag
 from towtank.simulate.parameter_scatter import scatter_of, vessel_of_draw
-from towtank.simulate.sail import sail
+from towtank.simulate.sailing import sail
 from towtank.simulate.ships import named_ship
 from towtank.simulate.track_fan import TrackFan, sail_fan
 

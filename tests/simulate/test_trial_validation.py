@@ -9,8 +9,9 @@ import pytest
 
 from towtank.core.errors import ReadError, SimulationError
 from towtank.simulate.manoeuvres import turning, zigzag
+from towtank.simulate.named_programmes import named_programme
 from towtank.simulate.parameter_scatter import scatter_of, vessel_of_draw
-from towtank.simulate.sail import sail
+from towtank.simulate.sailing import sail
 from towtank.simulate.ships import named_ship
 from towtank.simulate.trajectory import Trajectory
 from towtank.simulate.trial_alignment import from_order
@@ -33,6 +34,26 @@ def test_the_model_agrees_with_itself():
     assert channels.loc["psi", "rmse"] < 0.05
     assert channels.loc["psi", "correlation"] > 0.9999
     assert channels["coverage_pct"].isna().all()
+
+
+@pytest.mark.parametrize(
+    "name", ["crash stop", "pull-out 20", "williamson -35", "initial turning 10", "spiral", "reverse spiral"]
+)
+def test_every_manoeuvre_is_indexed_as_it_was_sailed(name):
+    tick = SHIP.ship.L / SHIP.speed
+    trial = replace(sail(SHIP, named_programme(name, tick)), events=None, source="trial.csv")
+    found = validate_trial(SHIP, trial)
+    assert len(found.indices) >= 3
+    lengths = found.indices["unit"] == "L"
+    np.testing.assert_allclose(found.indices["simulated"], found.indices["measured"], rtol=2e-3, atol=2e-4)
+    assert lengths.any() == (name in ("crash stop", "williamson -35", "initial turning 10"))
+
+
+def test_a_pull_out_is_compared_from_its_approach_on():
+    trial = measured(named_programme("pull-out 20", 1.0))
+    late = replace(trial, frame=trial.frame[trial["time"] > 60.0])
+    with pytest.raises(ReadError, match="begins in the turn -> give it from the straight approach"):
+        validate_trial(SHIP, late)
 
 
 def test_a_draw_lies_inside_the_band_of_its_ensemble():

@@ -5,9 +5,12 @@ import pytest
 
 from towtank.core.errors import TowtankError
 from towtank.squat.viscous_depth import (
+    deep_viscous_resistance,
     form_factor_in_depth,
     friction_line,
+    gross_watanabe_form_factor,
     ship_resistance_coefficient,
+    townsin_roughness,
     viscous_ratio,
 )
 
@@ -34,3 +37,27 @@ def test_form_factor_takes_more_off_the_model():
 def test_too_shallow(draught, depth, said):
     with pytest.raises(TowtankError, match=said):
         viscous_ratio(draught, depth)
+
+
+def test_form_factor_of_a_tanker_and_of_a_slender_hull():
+    assert gross_watanabe_form_factor(320.0, 58.0, 20.8, 0.81) == pytest.approx(
+        1.017 + 16.2 / 30.44 / 1.670, abs=1e-3
+    )
+    assert gross_watanabe_form_factor(320.0, 30.0, 20.8, 0.5) < 1.1
+
+
+def test_roughness_allowance_by_hand():
+    # 150 micrometres on 150 m: the cube root is 0.01; at Re 1e9 the second term is 0.01 too
+    assert townsin_roughness(150.0, 1e9) == pytest.approx(0.000125)
+    assert townsin_roughness(150.0, 1e9, 8 * 150e-6) == pytest.approx(0.00044 + 0.000125)
+    with pytest.raises(TowtankError, match="a roughness of -1 m is impossible"):
+        townsin_roughness(150.0, 1e9, -1.0)
+
+
+def test_viscous_resistance_is_the_sum_of_both_coefficients():
+    ship = {"length": 150.0, "wetted_surface": 4000.0, "form_factor": 1.22}
+    speed = 1e9 * 1.19e-6 / 150.0
+    expected = 0.5 * 1025.0 * speed**2 * 4000.0 * (1.22 * 0.075 / 49.0 + 0.000125)
+    assert deep_viscous_resistance(speed, **ship) == pytest.approx(expected)
+    with pytest.raises(TowtankError, match="a speed is not positive"):
+        deep_viscous_resistance([1.0, 0.0], **ship)
