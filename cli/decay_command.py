@@ -39,7 +39,9 @@ def decay(
     scale: Annotated[float, typer.Option(help="Scale of the records: 36 for a model 1:36.")] = 1.0,
     ship: Annotated[
         str | None,
-        typer.Option(help="TOML file with [ship] (and [ikeda]), or a named ship: B44 and the Ikeda components."),
+        typer.Option(
+            help="TOML file with \\[ship] (and \\[ikeda]), or a named ship: B44 and the Ikeda components."
+        ),
     ] = None,
     speed: Annotated[
         str, typer.Option(help="Forward speed in m/s, at the scale of the records; or one for each file: 0,0.5,1.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import sys
 from typing import Annotated, Any
 
@@ -68,6 +69,19 @@ gci_command.register(app)
 validate_cfd_command.register(app)
 uq_command.register(app)
 reproduce_command.register(app)
+
+
+def _flow_help(group: typer.Typer) -> None:
+    """Let the width of the terminal, not that of the source, break the lines of every help text."""
+    for command in group.registered_commands:
+        paragraphs = inspect.getdoc(command.callback or _options) or ""
+        command.help = "\n\n".join(" ".join(part.split()) for part in paragraphs.split("\n\n"))
+    for below in group.registered_groups:
+        if below.typer_instance is not None:
+            _flow_help(below.typer_instance)
+
+
+_flow_help(app)
 
 
 def main(arguments: list[str] | None = None) -> None:

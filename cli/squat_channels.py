@@ -11,7 +11,7 @@ import numpy as np
 from ..core.errors import TowtankError
 
 CHANNELS_EXAMPLE = '"time=time, speed=u, bow=z_VF, stern=z_VA"'
-_ROLES = ("time", "speed", "bow", "stern", "heave", "trim", "extra")
+_ROLES = ("time", "speed", "bow", "stern", "heave", "trim", "extra", "wave")
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 

@@ -44,7 +44,7 @@ def reduce(
     channels: Annotated[
         str | None,
         typer.Option(
-            help="role=column, ...: time, speed, bow, stern, or heave and trim, extra; a place x or x/y in m is a "
+            help="role=column, ...: time, speed, bow, stern, or heave and trim, extra, wave; a place x or x/y in m is a "
             "role too; a unit may follow in brackets: bow=z_VF \\[mm]."
         ),
     ] = None,
@@ -77,6 +77,10 @@ def reduce(
     waves: Annotated[
         bool, typer.Option("--waves", help="Regular waves: mean and harmonics; the window in seconds or plateau.")
     ] = False,
+    wave_x: Annotated[
+        float | None,
+        typer.Option(help="Place of the wave gauge (--channels wave=...) in m forward of midship: gives RAOs."),
+    ] = None,
     omega: Annotated[
         float | None, typer.Option(help="Frequency of encounter in rad/s; found when not given.")
     ] = None,
@@ -129,7 +133,7 @@ def reduce(
             raise ReadError("file not found", cure="check the path", file=missing[0])
         section = channels_section(files[0], channels)
         section |= {"sinkage_positive": sinkage_positive, "heave_x": heave_x}
-        section |= _given(trim_positive=trim_positive, trim_base=trim_base) | (
+        section |= _given(trim_positive=trim_positive, trim_base=trim_base, wave_x=wave_x) | (
             {"places": _places(place)} if place else {}
         )
         sections = {

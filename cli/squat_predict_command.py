@@ -43,7 +43,7 @@ def predict(
 
     Speeds are in knots unless --speed-unit says m/s. Everything is at full scale unless --model is given; a model's
     particulars are brought there. Formulas outside their limits are greyed and in brackets, never left out. A TOML
-    file may also hold [hull] (propellers, bulb, transom, midship_coefficient, static_trim) and [restoring].
+    file may also hold the sections hull (propellers, bulb, transom, midship_coefficient, static_trim) and restoring.
     With --out: predict.csv, spread.csv, predict.json, report.html.
 
     Example: towtank squat predict kcs --depth 16 --speed 6:16:1 --out squat

@@ -46,7 +46,7 @@ def load_squat_ship(name: str) -> SquatShip:
         return SquatShip(_with_volume(named_ship(name).ship))
     from ..core.ship import Ship
     from ..formats.checked_toml import read_toml, validated_sections
-    from ..squat.squat_campaign import HullFile, SquatHull, SquatRestoring
+    from ..squat.campaign_sections import HullFile, SquatHull, SquatRestoring
 
     data = read_toml(path, ReadError, what="TOML file with [ship]")
     if not isinstance(data.get("ship"), dict):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 
@@ -129,3 +130,20 @@ def test_looking_for_help_loads_no_heavy_library():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[1:] == [""]
+
+
+def commands(command, path=()):
+    """Every command and group of the application, with its words."""
+    yield command, path
+    for name, sub in getattr(command, "commands", {}).items():
+        yield from commands(sub, (*path, name))
+
+
+COMMANDS = list(commands(typer.main.get_command(entry.app)))
+
+
+@pytest.mark.parametrize(("command", "path"), COMMANDS, ids=[" ".join(path) or "towtank" for _, path in COMMANDS])
+def test_help_loses_no_word_in_square_brackets(command, path):
+    texts = [command.help, *(getattr(parameter, "help", None) for parameter in command.params)]
+    # the page of help takes [word] for a style and prints nothing; \[word] is printed
+    assert [text for text in texts if re.search(r"(?<!\\)\[[a-z]", text or "")] == []
