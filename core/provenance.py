@@ -5,6 +5,7 @@ from __future__ import annotations
 import platform
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,12 @@ from .findings import Finding
 
 def program_versions() -> dict[str, str]:
     """Versions of towtank, Python and the libraries that make the numbers."""
+    return dict(_installed())
+
+
+@cache
+def _installed() -> Mapping[str, str]:
+    """The same, read once: a campaign has a provenance for every fit."""
     from importlib.metadata import PackageNotFoundError, version
 
     versions = {"python": platform.python_version()}

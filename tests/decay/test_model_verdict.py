@@ -40,7 +40,7 @@ def test_true_model_is_rarely_contradicted(make_decay):
 @pytest.mark.slow
 @pytest.mark.parametrize("c3", [0.0, -0.05])
 def test_intervals_after_the_choice_of_restoring_cover(make_decay, c3):
-    """300 records, the restoring terms chosen by the record: the 95 % intervals hold the truth in 92 to 97 %.
+    """150 records, the restoring terms chosen by the record: the 95 % intervals hold the truth in 92 to 97 %.
 
     With c3 = -0.05 the term is there and too weak to be seen, the worst for intervals that know of no choice.
     """
@@ -48,7 +48,7 @@ def test_intervals_after_the_choice_of_restoring_cover(make_decay, c3):
     amplitude = np.array([0.1, 0.2, 0.3])
     true = equivalent_linear(np.array(coefficients), amplitude)[0]
     hits = []
-    for seed in range(300):
+    for seed in range(150):
         record = make_decay(coefficients, noise=0.5, seed=seed)
         model = damping_model(restoring=judge_models([record]).restoring)
         at = fit_integration(record, model, starts=1).equivalent(amplitude)
