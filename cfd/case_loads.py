@@ -119,6 +119,10 @@ class CaseLoads:
         Places where runs were joined.
     diverged_at : float or None
         First time at which the solver printed no number.
+    units : mapping of str to str
+        Units of channels that are no loads, as the solver prints them; see :func:`.case_history.history_of`.
+    history : str
+        Name of the history that the channels are columns of; empty for loads.
     """
 
     name: str
@@ -131,20 +135,34 @@ class CaseLoads:
     files: tuple[str, ...] = ()
     restarts: int = 0
     diverged_at: float | None = field(default=None)
+    units: Mapping[str, str] = field(default_factory=dict)
+    history: str = ""
+
+    def unit(self, channel: str) -> str:
+        """Unit of a channel: N and N m for loads and their parts; empty if the solver prints none."""
+        if self.history:
+            return self.units.get(channel, "")
+        return "N" if channel[0] in FORCES else "N m"
+
+    def labelled(self, channel: str) -> str:
+        """Name of a channel with its unit in brackets."""
+        unit = self.unit(channel)
+        return f"{channel} [{unit}]" if unit else channel
 
     @property
     def loads(self) -> tuple[str, ...]:
-        """Total loads that are there, in the order X, Y, Z, K, M, N."""
+        """Total loads that are there, in the order X, Y, Z, K, M, N; all columns of another history."""
+        if self.history:
+            return tuple(self.channels)
         return tuple(name for name in LOADS if name in self.channels)
 
     def to_frame(self) -> pd.DataFrame:
         """Table with the time or iteration and all channels, units in the names."""
         import pandas as pd
 
-        unit = {name: "N" if name[0] in "XYZ" else "N m" for name in self.channels}
         index = "time [s]" if self.index_name == "time" else "iteration"
         return pd.DataFrame(
-            {index: self.time} | {f"{name} [{unit[name]}]": values for name, values in self.channels.items()}
+            {index: self.time} | {self.labelled(name): values for name, values in self.channels.items()}
         )
 
 
@@ -171,10 +189,13 @@ def case_loads(case: SolverCase, choices: LoadChoices | None = None, *, drift_an
     chosen = choices or LoadChoices()
     monitors = case.of_kind("monitor")
     if monitors and not case.of_kind("forces"):
-        have = [str(name) for log in monitors for name in log.frame.columns[1:]]
+        units = {str(name): log.units.get(str(name), "") for log in monitors for name in log.frame.columns[1:]}
+        have = [name for name in units if name != "time_step"]
+        first = (have[0] + ("" if units[have[0]] else " [N]")) if have else "NAME"
+        quoted = f'"Fx_total={first}"' if " " in first else f"Fx_total={first}"
         raise ReadError(
             "which of its columns are forces is not known",
-            cure=f"say so with --column Fx_total={have[0] if have else 'NAME'}; columns are {', '.join(have[:8])}",
+            cure=f"say so with --column {quoted}; columns are {', '.join(have[:8])}",
             file=monitors[0].files[0],
         )
     log = case.log("forces", chosen.object)

@@ -12,11 +12,13 @@ import numpy as np
 from ..core.errors import FitError, ReadError
 from ..core.findings import Finding, stop_on_error
 from ..formats import read_solver_case
+from ..formats.run_order import tells_run_order
 from ..identify.autocorrelation import mean_with_error
 from ..identify.batch_means import batch_means
 from ..identify.settling import ChannelSettling, Settling, settle
 from ..identify.transient import MIN_SAMPLES
-from .case_loads import FORCES, LOADS, CaseLoads, LoadChoices, case_loads
+from .case_history import history_of
+from .case_loads import LOADS, CaseLoads, LoadChoices, case_loads
 from .case_sweep import CaseSweep, SweepCase
 
 if TYPE_CHECKING:
@@ -34,6 +36,9 @@ STOPPING = {"still drifting": "still-drifting", "too short": "too-short", "diver
 
 FITTED = ("X", "Y", "N")
 """Loads that a manoeuvring model is fitted to, and whose verdicts count."""
+
+PART_NOTE = "as the whole load"
+"""Pressure, viscous and porous parts have the window and the verdict of their load."""
 
 SETTLED_COLUMNS = (
     "case",
@@ -85,7 +90,9 @@ class SettledCase:
 
     @property
     def fitted(self) -> tuple[str, ...]:
-        """Loads whose verdict counts: X, Y and N as far as they are there, else all totals."""
+        """Loads whose verdict counts: X, Y and N as far as they are there, else all totals or columns."""
+        if self.loads.history:
+            return self.names
         present = tuple(name for name in FITTED if name in self.names)
         return present or tuple(name for name in LOADS if name in self.names)
 
@@ -106,14 +113,23 @@ class SettledCase:
         return pd.DataFrame(rows, columns=list(SETTLED_COLUMNS))
 
 
-def read_case(case: SweepCase, choices: LoadChoices) -> CaseLoads:
-    """Loads of one case of a sweep.
+def read_case(case: SweepCase, choices: LoadChoices, *, history: str = "") -> CaseLoads:
+    """Loads of one case of a sweep, or another history of it.
+
+    Parameters
+    ----------
+    case : SweepCase
+    choices : LoadChoices
+    history : str
+        Name of a history (motion, probes, surface elevation, residuals, monitor) to take instead of the loads.
 
     Raises
     ------
     ReadError
         Naming the file, the place and the cure.
     """
+    if history:
+        return history_of(read_solver_case(case.path), history, case.name)
     objects = None if choices.object is None else [choices.object]
     read = read_solver_case(case.path, objects=objects, channels=dict(choices.columns) or None)
     return case_loads(read, choices, drift_angle=math.radians(case.drift_angle))
@@ -165,7 +181,12 @@ def settle_case(
         return settled
     kept = loads.time >= judged.cut_time
     of_total = dict(zip(totals, judged.channels))
-    shares = [_part_mean(loads.channels[name][kept], of_total[name[0]]) for name in parts]
+    shares = [
+        _part_mean(loads.channels[name][kept], of_total[name[0]])
+        if of_total[name[0]].cycles is None
+        else _part_cycles(loads.time, loads.channels[name], of_total[name[0]], judged.cut_time)
+        for name in parts
+    ]
     both = replace(judged, channels=(*judged.channels, *shares))
     return SettledCase(case, loads, (*totals, *parts), both, settled.waived)
 
@@ -186,8 +207,15 @@ def _part_mean(values: np.ndarray, total: ChannelSettling) -> ChannelSettling:
         cycles=None,
         amplitude=math.nan,
         amplitude_se=math.nan,
-        note="window and verdict of the whole load",
+        note=PART_NOTE,
     )
+
+
+def _part_cycles(time: np.ndarray, values: np.ndarray, total: ChannelSettling, cut: float) -> ChannelSettling:
+    """Mean and harmonics of a part of a periodic load over the same whole cycles, with the verdict of the load."""
+    assert total.cycles is not None
+    (own,) = settle(time, values, omega=total.cycles.omega, start=cut).channels
+    return replace(own, verdict=total.verdict, note=PART_NOTE)
 
 
 def _tolerances(names: Sequence[str], table: np.ndarray) -> list[float]:
@@ -205,12 +233,13 @@ def _tolerances(names: Sequence[str], table: np.ndarray) -> list[float]:
 
 
 def settling_findings(cases: Iterable[SettledCase]) -> list[Finding]:
-    """Errors for cases that have not settled; accepted where the user waived the case.
+    """Errors for cases that have not settled, accepted where the user waived the case; warnings on doubtful run orders.
 
     A diverged case has no mean and cannot be waived.
     """
     findings = []
     for item in cases:
+        findings += _run_order_findings(item)
         rule = STOPPING.get(item.verdict)
         if rule is None:
             continue
@@ -234,6 +263,22 @@ def settling_findings(cases: Iterable[SettledCase]) -> list[Finding]:
     return findings
 
 
+def _run_order_findings(item: SettledCase) -> list[Finding]:
+    """Warnings where a case was run again and folders of the run before were left in place."""
+    return [
+        Finding(
+            "run-order",
+            "warning",
+            note,
+            file=str(item.case.path),
+            place=item.case.name,
+            cure="move folders of another run away",
+        )
+        for note in item.loads.notes
+        if tells_run_order(note)
+    ]
+
+
 def require_settled(cases: Sequence[SettledCase]) -> None:
     """Refuse to go on with cases that have not settled and are not waived.
 
@@ -243,7 +288,7 @@ def require_settled(cases: Sequence[SettledCase]) -> None:
         Naming the case, the load, the remaining drift and the cure.
     """
     findings = settling_findings(cases)
-    waiting = [item for item in findings if not item.accepted]
+    waiting = [item for item in findings if item.severity == "error" and not item.accepted]
     if waiting:
         first = waiting[0]
         more = f" (and {len(waiting) - 1} more cases)" if len(waiting) > 1 else ""
@@ -257,6 +302,7 @@ def settle_sweep(
     omega: float | None = None,
     start: float | None = None,
     waive: Iterable[str] = (),
+    history: str = "",
     progress: Any = None,
 ) -> tuple[SettledCase, ...]:
     """Read and settle all cases of a sweep, one after the other.
@@ -267,6 +313,8 @@ def settle_sweep(
         Double cases stop here.
     choices, omega, start, waive
         As in :func:`settle_case`.
+    history : str
+        As in :func:`read_case`.
     progress : callable, optional
         ``progress(what, done, total)``.
 
@@ -287,7 +335,7 @@ def settle_sweep(
     for number, case in enumerate(sweep.cases):
         if progress:
             progress("settling", number, len(sweep.cases))
-        loads = read_case(case, choices or LoadChoices())
+        loads = read_case(case, choices or LoadChoices(), history=history)
         settled.append(settle_case(case, loads, omega=omega, start=start, waive=waived))
     if progress:
         progress("settling", len(sweep.cases), len(sweep.cases))
@@ -317,6 +365,11 @@ def points_table(cases: Sequence[SettledCase]) -> pd.DataFrame:
     require_settled(cases)
     rows = []
     for item in cases:
+        if item.loads.history:
+            raise FitError(
+                f"'{item.loads.history}' of case '{item.case.name}' holds no loads",
+                cure="points are of forces: settle the cases without --history",
+            )
         row: dict[str, Any] = {
             "name": item.case.name,
             "beta": item.case.drift_angle,
@@ -335,7 +388,7 @@ def _row(item: SettledCase, name: str, channel: ChannelSettling) -> Mapping[str,
     values = (
         item.case.name,
         name,
-        "N" if name[0] in FORCES else "N m",
+        item.loads.unit(name),
         channel.mean,
         channel.se,
         channel.half_width(),

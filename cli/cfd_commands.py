@@ -48,6 +48,13 @@ Columns = Annotated[
         "--column", metavar="LOAD=COLUMN", help="Column of a monitor file: Fx_total=Drag; may be repeated."
     ),
 ]
+History = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAME",
+        help="Another history than the forces: its name or kind (motion, probes, surface, residuals, monitor).",
+    ),
+]
 Pattern = Annotated[
     str | None,
     typer.Option(help="Pattern of the names, e.g. b{drift_angle}_g{grid}; words such as beta_-4_grid2."),
@@ -89,6 +96,7 @@ def read(
     pattern: Pattern = None,
     table: CaseTable = None,
     cells: Cells = None,
+    history: History = None,
     out: Out = None,
     json: AsJson = False,
     quiet: Quiet = False,
@@ -96,9 +104,11 @@ def read(
     """Read the force histories of cases into home axes at midship, and list the cases as one campaign.
 
     OpenFOAM cases (with restarts), STAR-CCM+, Fluent and other monitor files. With --out: campaign.csv (one row a
-    case), loads.csv (time, X, Y, Z, K, M, N and their pressure and viscous parts), provenance.json.
+    case), loads.csv (time, X, Y, Z, K, M, N and their pressure and viscous parts), provenance.json. With --history
+    (a name, a kind or all): motions, probes, surface elevations, residuals as the solver prints them; histories.csv
+    and one CSV a history.
 
-    Example: towtank cfd read sweep/ --density 998.8 --midship 3.5,0,0 --out loads
+    Examples: towtank cfd read sweep/ --density 998.8 --midship 3.5,0,0 --out loads; towtank cfd read case --history all
     """
     from ..cfd.settled_loads import read_case
     from ..core.findings import stop_on_error
@@ -110,6 +120,9 @@ def read(
         require_cfd_folder(out, settled=False)
     sweep = _sweep(cases, pattern, table, cells)
     stop_on_error(sweep.findings)
+    if history is not None:
+        _read_histories(sweep, history, chosen, out, json, quiet)
+        return
     with progress_bar(not quiet) as bar:
         loads = []
         for number, case in enumerate(sweep.cases):
@@ -134,6 +147,51 @@ def read(
     _print_written(out, written)
 
 
+def _read_histories(
+    sweep: CaseSweep, wanted: str, chosen: LoadChoices, out: Path | None, as_json: bool, quiet: bool
+) -> None:
+    """``towtank cfd read --history``: histories of cases that are no loads."""
+    from ..cfd.case_history import histories_table, history_names, history_of
+    from ..formats import read_solver_case
+    from ..report.cfd_history_outputs import joined_overview, write_histories
+    from ..report.cfd_settling_tables import settled_records
+
+    channels = dict(chosen.columns) or None
+    found, tables, notes = [], [], []
+    with progress_bar(not quiet) as bar:
+        for number, case in enumerate(sweep.cases):
+            bar("reading", number, len(sweep.cases))
+            solver = read_solver_case(case.path, channels=channels)
+            names = history_names(solver, wanted)
+            found += [history_of(solver, name, case.name) for name in names]
+            overview = histories_table(solver, case.name)
+            tables.append(overview[overview["history"].isin(names)])
+            notes += [(case.name, note) for note in solver.notes]
+        bar("reading", len(sweep.cases), len(sweep.cases))
+        overview = joined_overview(tables)
+        written = [] if out is None else write_histories(overview, found, chosen, out, progress=bar)
+    notes += [(f"{item.name}, {item.history}", note) for item in found for note in item.notes]
+    if quiet:
+        return
+    if as_json:
+        _print_json({"histories": settled_records(overview), "notes": [list(note) for note in notes]})
+        return
+    from ..report.aligned_text import aligned_text
+
+    short = overview.assign(columns=[_few(text.split(" "), " ") for text in overview["columns"]])
+    short["points"] = [_few(text.split("; "), "; ") for text in overview["points"]]
+    shown = [name for name in short.columns if name != "points" or any(short["points"])]
+    typer.echo(aligned_text(short, shown))
+    for name, note in dict.fromkeys(notes):
+        typer.echo(f"{name}: {note}")
+    _print_written(out, written)
+
+
+def _few(words: list[str], between: str) -> str:
+    """The first few of many names, and how many there are."""
+    return between.join(words) if len(words) <= 4 else f"{between.join(words[:3])} ... ({len(words)})"
+
+
 def settle(
     cases: Cases,
     axes: Axes = "x-aft-z-up",
@@ -152,6 +210,7 @@ def settle(
     ] = None,
     start: Annotated[float | None, typer.Option(help="Cut here instead of where the rules say, s.")] = None,
     waive: Waive = None,
+    history: History = None,
     out: Out = None,
     report: Annotated[bool, typer.Option(help="Write report.html.")] = True,
     json: AsJson = False,
@@ -159,13 +218,14 @@ def settle(
 ) -> None:
     """Say when each run settled, and give its means with their errors: settled, still drifting, periodic, diverged.
 
-    With --out: settled.csv (mean, se, n_eff, cut_time, verdict, remaining_drift of every load), points.csv (points
-    of a captive campaign; not while a case is unsettled and not waived), report.html, provenance.json. The exit
-    status is 2 while a case is unsettled and not waived.
+    With --out: settled.csv (mean, se, n_eff, cut_time, verdict, remaining_drift of every load), cycles.csv (periodic
+    loads cycle by cycle), points.csv (points of a captive campaign; not while a case is unsettled and not waived),
+    report.html, provenance.json. The exit status is 2 while a case is unsettled and not waived.
 
     Example: towtank cfd settle sweep/ --density 998.8 --midship 3.5,0,0 --out settled
     """
     from ..cfd.settled_loads import require_settled, settle_sweep, settled_table, settling_findings
+    from ..formats.run_order import tells_run_order
     from ..report.cfd_settling_outputs import require_cfd_folder, write_settled
     from ..report.cfd_settling_tables import settled_records, settled_text
 
@@ -176,7 +236,9 @@ def settle(
         require_cfd_folder(out, settled=True)
     sweep = _sweep(cases, pattern, table, cells)
     with progress_bar(not quiet) as bar:
-        settled = settle_sweep(sweep, chosen, omega=omega, start=start, waive=waive or (), progress=bar)
+        settled = settle_sweep(
+            sweep, chosen, omega=omega, start=start, waive=waive or (), history=history or "", progress=bar
+        )
         written = [] if out is None else write_settled(sweep, settled, chosen, out, report=report, progress=bar)
     findings = [*sweep.findings, *settling_findings(settled)]
     if json and not quiet:
@@ -184,6 +246,10 @@ def settle(
         _print_json({"settled": records, "findings": [vars(item) for item in findings]})
     elif not quiet:
         typer.echo(settled_text(settled))
+        for item in settled:
+            for note in item.loads.notes:
+                if not tells_run_order(note):
+                    typer.echo(f"{item.case.name}: {note}")
         print_findings(item for item in findings if item.accepted or item.severity != "error")
         _print_written(out, written)
     require_settled(settled)

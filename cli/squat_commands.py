@@ -11,6 +11,7 @@ from ..core.errors import ReadError, TowtankError
 from .campaign_commands import AcceptRules
 from .progress import progress_bar
 from .squat_predict_command import predict
+from .squat_scale_command import scale as scale_errors
 from .squat_score_command import score
 from .squat_voyage_command import voyage
 
@@ -33,6 +34,7 @@ def register(app: typer.Typer) -> None:
     group.command("reduce")(reduce)
     group.command("score")(score)
     group.command("predict")(predict)
+    group.command("scale")(scale_errors)
     group.command("voyage")(voyage)
     app.add_typer(group, name="squat")
 
@@ -44,8 +46,8 @@ def reduce(
     channels: Annotated[
         str | None,
         typer.Option(
-            help="role=column, ...: time, speed, bow, stern, or heave and trim, extra, wave; a place x or x/y in m is a "
-            "role too; a unit may follow in brackets: bow=z_VF \\[mm]."
+            help="role=column, ...: time, speed, bow, stern, or heave and trim, extra, wave; a place x or x/y in m is "
+            "a role too; a unit may follow in brackets: bow=z_VF \\[mm]."
         ),
     ] = None,
     window: Annotated[

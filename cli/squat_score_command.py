@@ -33,19 +33,19 @@ def score(
     """Quality Q, bias BS and errors of computed curves against a measured one.
 
     Computed curves are interpolated linearly at the measured points, never extrapolated. Errors are S - D, computed
-    less measured; BS sums the signs of D - S. A text column 'case' splits the tables. With --out: scores.csv (case,
-    quantity, n, Q, BS, bias, rms, max_abs, unit), score_details.csv, errors.csv, ranking.csv, totals.csv,
-    scores.json, report.html.
+    less measured; BS sums the signs of D - S. A text column 'case' splits the tables. Motions in waves, columns
+    x_amplitude and x_phase, are scored as phasors (motions.csv). With --out: scores.csv (case, quantity, n, Q, BS,
+    bias, rms, max_abs, unit), score_details.csv, errors.csv, ranking.csv, totals.csv, scores.json, report.html.
 
     Example: towtank squat score --efd tank.csv --cfd rans.csv --cfd panel.csv --scale 89.11 --out scores
     """
     from ..squat.code_scores import score_tables
     from ..squat.curve_table import read_curve_table
 
-    units = dict(_assignment(word, "--unit") for word in unit or ())
+    units = dict(assignment(word, "--unit") for word in unit or ())
     zeros = {
         name: _number(value, "--near-zero")
-        for name, value in (_assignment(w, "--near-zero") for w in near_zero or ())
+        for name, value in (assignment(w, "--near-zero") for w in near_zero or ())
     }
     if out is not None:
         from ..report.score_outputs import require_score_folder
@@ -79,7 +79,14 @@ def score(
         typer.echo(f"\n-> {out}/: {', '.join(path.name for path in written)}")
 
 
-def _assignment(word: str, option: str) -> tuple[str, str]:
+def assignment(word: str, option: str) -> tuple[str, str]:
+    """Column and value of a word ``column=value``.
+
+    Raises
+    ------
+    TowtankError
+        For a word of another form; it names the option.
+    """
     name, _, value = (part.strip() for part in word.partition("="))
     if not (name and value):
         raise TowtankError(f"{option}: '{word}' is not column=value", cure="write for example bow=mm")

@@ -16,6 +16,7 @@ from .log_layout import LogLayout
 from .log_rows import Reading, row_blocks
 from .log_series import as_frame
 from .log_stream import wanted_columns
+from .run_order import in_run_order
 from .solver_log import EmptyLogError, Restart
 
 if TYPE_CHECKING:
@@ -74,10 +75,9 @@ class GrowingLog:
             If the path does not exist, is of an unknown form, or too many lines are broken.
         """
         blocks = []
-        for path in runs_at(self.path):
-            place = self._place(path)
-            if place is None:
-                continue
+        begun = {path: place for path in runs_at(self.path) if (place := self._place(path)) is not None}
+        for path, _ in in_run_order([(path, place.layout) for path, place in begun.items()])[0]:
+            place = begun[path]
             places, names = wanted_columns(place.layout, self._columns)
             if self.names and names != self.names:
                 raise ReadError(

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import pandas as pd
 
+from ..core.errors import ReadError
 from .channels import DIMENSIONS, ChannelMap
 from .raw_table import RawTable
 from .solver_log import SolverLog
-from .units import SI_SYMBOLS, conversion
+from .units import SI_SYMBOLS, conversion, convertible
 
 _FORCE = re.compile(r"^(?P<letter>[FM])[xyz]_(total|pressure|viscous|porous)$")
 
@@ -41,6 +42,7 @@ def through_channels(log: SolverLog, channels: ChannelMap, file_columns: Sequenc
         printed = channels.channels[index].column
         if isinstance(printed, str) and printed not in values:
             values[printed], units[printed] = values[index], units[index]
+    _check_forces(channels, units, log)
     record = channels.apply(RawTable(values, units, path=str(log.files[-1]), file_columns=tuple(file_columns)))
     mapped = [name for name in channels.channels if name != index]
     columns = {
@@ -54,6 +56,32 @@ def through_channels(log: SolverLog, channels: ChannelMap, file_columns: Sequenc
         units={index: log.units.get(index, ""), **{name: _si_unit(name, record.units[name]) for name in mapped}},
         notes=(*log.notes, *record.steps),
     )
+
+
+def _check_forces(channels: ChannelMap, units: Mapping[str, str], log: SolverLog) -> None:
+    """Refuse a force or moment whose unit is missing or of another dimension."""
+    for name, channel in channels.channels.items():
+        force = _FORCE.match(name)
+        unit = units.get(str(channel.column), "") if channel.unit is None else channel.unit
+        if force is None or unit.strip() == "SI" or isinstance(channel.column, int):
+            continue
+        if str(channel.column) not in units and channel.unit is None:
+            continue
+        wanted, likely = ("force", "N") if force["letter"] == "F" else ("moment", "N m")
+        if not unit.strip():
+            raise ReadError(
+                f"column '{channel.column}' has no unit in the file",
+                cure=f"give it with the name: {name}={channel.column} [{likely}]",
+                file=log.files[-1],
+                place=f"channel {name}",
+            )
+        if convertible(unit, wanted) is None:
+            raise ReadError(
+                f"unit '{unit}' of column '{channel.column}' is no {wanted}",
+                cure=f"map another column, or give the right unit: {name}={channel.column} [{likely}]",
+                file=log.files[-1],
+                place=f"channel {name}",
+            )
 
 
 def _si_unit(name: str, unit: str) -> str:

@@ -14,6 +14,7 @@ from .log_layout import LogLayout
 from .log_series import as_frame
 from .log_stream import LogStream, Selection
 from .openfoam_case import run_files
+from .run_order import in_run_order
 from .solver_log import EmptyLogError
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ def runs_at(path: Path) -> list[Path]:
 
 
 def runs_with_layouts(path: Path) -> list[tuple[Path, LogLayout]]:
-    """The same with the columns of each; runs that wrote no rows are left out if others did."""
+    """The same with the columns of each, the newest run last; runs that wrote no rows are left out if others did."""
     files = runs_at(path)
     found = []
     for file in files:
@@ -56,7 +57,7 @@ def runs_with_layouts(path: Path) -> list[tuple[Path, LogLayout]]:
                 raise
     if not found:
         raise EmptyLogError("none of the runs wrote rows", cure="repeat the run", file=path)
-    return found
+    return in_run_order(found)[0]
 
 
 def read_log_blocks(

@@ -12,6 +12,9 @@ import numpy as np
 from .log_layout import LogLayout
 from .log_rows import PIECE, Reading, in_order, pieces, places_of, plain_row, row_blocks, unfinished_row
 
+_TAIL = 65_536
+"""Bytes at the end of a file in which its last rows are looked for."""
+
 
 def index_blocks(path: Path, layout: LogLayout, *, workers: int = 2) -> Iterator[np.ndarray]:
     """Times (or iterations) of the rows of a file, in blocks that are not empty.
@@ -64,6 +67,28 @@ def first_index(path: Path, layout: LogLayout) -> float | None:
                 return values[0]
     last = next(index_blocks(path, layout), None)
     return None if last is None else float(last[0])
+
+
+def last_index(path: Path, layout: LogLayout) -> tuple[float, float]:
+    """Times (or iterations) of the last two rows of a file; NaN where there is none."""
+    places, _ = places_of(layout, ())
+    with open(path, "rb") as file:
+        size = file.seek(0, 2)
+        begin = max(layout.first_byte, size - _TAIL)
+        file.seek(begin)
+        lines = file.read().split(b"\n")[:-1]
+    # The tail may begin within a line.
+    rows = lines[1:] if begin > layout.first_byte else lines
+    found: list[float] = []
+    for raw in reversed(rows):
+        line = raw.decode("utf-8", errors="replace")
+        values = plain_row(line, layout, places)
+        if values is not None and np.isfinite(values[0]):
+            found.append(values[0])
+        if len(found) == 2:
+            break
+    last, before = (*found, np.nan, np.nan)[:2]
+    return before, last
 
 
 def _times(piece: bytes, layout: LogLayout) -> np.ndarray:

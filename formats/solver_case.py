@@ -10,6 +10,7 @@ from typing import Any
 
 from ..core.errors import ReadError
 from .channels import ChannelMap
+from .force_monitors import holds_all, joined_by_map, with_named_forces
 from .log_blocks import read_block_series
 from .log_channels import through_channels
 from .log_dialects import layout_of
@@ -19,6 +20,7 @@ from .log_series import merged, read_series
 from .log_stream import Selection
 from .openfoam_case import post_processing_folder, run_files
 from .part_sums import missing_totals, with_totals
+from .run_order import in_run_order
 from .solver_log import EmptyLogError, SolverCase, SolverLog
 
 _ENDINGS = {".csv", ".out", ".frp", ".dat", ".txt", ".tsv", ".plt"}
@@ -52,7 +54,8 @@ def read_solver_case(
         Each history says so in its notes. Default: every row.
     channels : ChannelMap or mapping, optional
         Columns of monitor files by name, with units and signs, in SI. Names such as ``Fx_total`` make a history of
-        forces of it.
+        forces of it; columns that stand in several files of a folder are joined. Without a map, monitors whose own
+        name and unit say what they are (``Force X (N)``, ``Moment Z (N-m)``) become the forces, and a note says so.
 
     Returns
     -------
@@ -70,7 +73,8 @@ def read_solver_case(
     mapped = ChannelMap.model_validate(channels) if channels is not None else None
     if not path.is_dir():
         log = _log(path, selection, mapped)
-        return SolverCase(path.stem, path.parent, {log.name: log})
+        logs = {log.name: log} if mapped is not None else with_named_forces({log.name: log})
+        return SolverCase(path.stem, path.parent, logs)
     wanted = None if objects is None else tuple(objects)
     folder = post_processing_folder(path)
     if folder is not None and mapped is not None:
@@ -183,10 +187,18 @@ def _monitor_logs(
     }
     logs: dict[str, SolverLog] = {}
     notes: list[str] = []
+    layouts: dict[str, list[tuple[Path, LogLayout]]] = {}
     for name in _chosen(wanted, files, folder):
         with _passed_over(notes, files[name].name, strict=wanted is not None):
-            layouts, _ = _layouts([files[name]], folder, _index_column(channels))
-            logs[name] = _history(layouts, name, _present(selection, layouts[-1][1]), channels)
+            layouts[name], _ = _layouts([files[name]], folder, _index_column(channels))
+            logs[name] = _history(layouts[name], name, _present(selection, layouts[name][-1][1]))
+    if channels is None:
+        return with_named_forces(logs), notes
+    whole = [name for name, log in logs.items() if holds_all(log, channels)]
+    if not whole and logs:
+        return joined_by_map(logs, channels, folder), notes
+    for name in whole:
+        logs[name] = _history(layouts[name], name, selection, channels)
     return logs, notes
 
 
@@ -219,7 +231,7 @@ def _passed_over(notes: list[str], name: str, *, strict: bool) -> Iterator[None]
 def _layouts(
     files: list[Path], folder: Path, index: str | int | None = None
 ) -> tuple[list[tuple[Path, LogLayout]], list[str]]:
-    """Layouts of the runs that wrote rows, and a note on each that did not."""
+    """Layouts of the runs that wrote rows, the newest last, and notes on the order and on each that did not."""
     found = []
     notes = []
     for file in files:
@@ -229,7 +241,8 @@ def _layouts(
             notes.append(f"{file.relative_to(folder).as_posix()}: {error.cause}")
             if file == files[-1] and not found:
                 raise
-    return found, notes
+    ordered, said = in_run_order(found)
+    return ordered, [*notes, *said]
 
 
 def _present(selection: Selection, layout: LogLayout) -> Selection:

@@ -282,7 +282,8 @@ def _cut(
     if periodic:
         begin = max(own.start_time for own in periodic)
         drop = max(own.drop for own in periodic)
-        first = max(first, int(np.searchsorted(time, begin - 1e-9 * abs(begin))))
+        # The sample nearest to the start of the cycle: a later one would cost a whole cycle.
+        first = max(first, int(np.searchsorted(time, begin - 0.5 * float(time[1] - time[0]))))
         notes.append(f"{drop} of {periodic[0].cycles} cycles dropped")
     return min(first, time.size - MIN_SAMPLES // 2), "; ".join(notes)
 

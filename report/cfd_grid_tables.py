@@ -22,7 +22,7 @@ def grid_derivatives_table(study: GridStudy) -> Table:
         Column("U95", "number", "numerical and fit together, expanded"),
         Column("U_num", "number", "numerical uncertainty, expanded (95 %)"),
         Column("u_fit", "number", "standard error of the fit on the finest grid"),
-        Column("class", "short"),
+        Column("class"),
         Column("order", "number", "observed order of convergence"),
         Column("limit", "number", "extrapolated to spacing zero"),
     ]

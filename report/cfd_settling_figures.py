@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 
 from ..cfd.settled_loads import SettledCase
 from ..identify.batch_means import running_mean
+from ..identify.cycle_convergence import phase_average
 from .figure_style import BLUE, MUTED, VERMILLION, decimated, engineering_unit, new_axes, small_legend
 
 POINTS = 600
@@ -35,7 +36,7 @@ def running_mean_figure(item: SettledCase, load: str, *, ax: Axes | None = None)
     ax = ax if ax is not None else new_axes()
     channel, cut = item[load], item.settling.cut_time
     time, values = item.loads.time, item.loads.channels[load]
-    factor, unit = engineering_unit("N" if load in "XYZ" else "N m", values[np.isfinite(values)])
+    factor, unit = _scaled(item.loads.unit(load), values[np.isfinite(values)])
     t, shown = decimated(time, factor * values, POINTS)
     ax.plot(t, shown, color=MUTED, linewidth=0.7)
     window = factor * values
@@ -51,7 +52,38 @@ def running_mean_figure(item: SettledCase, load: str, *, ax: Axes | None = None)
     ax.set_ylim(low - margin, high + margin)
     ax.set_xlim(float(time[0]), float(time[-1]))
     ax.set_xlabel("time [s]" if item.loads.index_name == "time" else "iteration")
-    ax.set_ylabel(f"{load} [{unit}]")
+    ax.set_ylabel(f"{load} [{unit}]" if unit else load)
+    return ax
+
+
+def phase_figure(item: SettledCase, load: str, *, ax: Axes | None = None) -> Axes:
+    """Mean cycle of a periodic load over its kept cycles, with twice the deviation between them.
+
+    Parameters
+    ----------
+    item : SettledCase
+    load : str
+        A load with cycles.
+    ax : Axes, optional
+    """
+    ax = ax if ax is not None else new_axes()
+    cycles = item[load].cycles
+    assert cycles is not None
+    drop = min(
+        max(own.drop for own in (item[name].cycles for name in item.fitted) if own is not None), cycles.cycles - 1
+    )
+    found = phase_average(item.loads.time, item.loads.channels[load], cycles.omega, drop=drop)
+    factor, unit = _scaled(item.loads.unit(load), found.mean)
+    # The cycle is closed: 360 deg is 0 deg again.
+    degrees = np.append(np.degrees(found.phase), 360.0)
+    mean = factor * np.append(found.mean, found.mean[0])
+    spread = 2.0 * factor * np.nan_to_num(np.append(found.sd, found.sd[0]))
+    ax.fill_between(degrees, mean - spread, mean + spread, color=BLUE, alpha=0.18, linewidth=0)
+    ax.plot(degrees, mean, color=BLUE, linewidth=1.5)
+    ax.set_xlim(0.0, 360.0)
+    ax.set_xticks([0, 90, 180, 270, 360])
+    ax.set_xlabel(f"phase ωt [deg], {found.cycles} cycles")
+    ax.set_ylabel(f"{load} [{unit}]" if unit else load)
     return ax
 
 
@@ -69,7 +101,7 @@ def cycle_figure(item: SettledCase, load: str, *, ax: Axes | None = None) -> Axe
     cycles = item[load].cycles
     assert cycles is not None
     number = np.arange(1, cycles.cycles + 1)
-    factor, unit = engineering_unit("N" if load in "XYZ" else "N m", cycles.amplitude)
+    factor, unit = _scaled(item.loads.unit(load), cycles.amplitude)
     for k, colour in zip(range(min(cycles.amplitude.shape[1], 3)), (BLUE, VERMILLION, MUTED)):
         values = factor * cycles.amplitude[:, k]
         ax.plot(number, values, color=colour, linewidth=0.9)
@@ -77,7 +109,12 @@ def cycle_figure(item: SettledCase, load: str, *, ax: Axes | None = None) -> Axe
         ax.plot(number[kept], values[kept], "o", color=colour, markersize=4, label=f"harmonic {k + 1}")
         ax.plot(number[~kept], values[~kept], "o", color=colour, markersize=4, markerfacecolor="none")
     ax.set_xlabel("cycle")
-    ax.set_ylabel(f"amplitude of {load} [{unit}]")
+    ax.set_ylabel(f"amplitude of {load} [{unit}]" if unit else f"amplitude of {load}")
     ax.set_ylim(bottom=0.0)
     small_legend(ax)
     return ax
+
+
+def _scaled(unit: str, values: np.ndarray) -> tuple[float, str]:
+    """Factor and unit of an axis; only forces and moments take a prefix."""
+    return engineering_unit(unit, values) if unit in ("N", "N m") else (1.0, unit)

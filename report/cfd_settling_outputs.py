@@ -11,6 +11,7 @@ from markupsafe import Markup
 
 from ..cfd.case_loads import CaseLoads, LoadChoices
 from ..cfd.case_sweep import CaseSweep
+from ..cfd.cycles_table import cycles_table
 from ..cfd.settled_loads import SettledCase, points_table, settled_table, settling_findings
 from ..core.findings import Finding
 from ..core.provenance import program_versions
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
 
 READ_FORMAT = "towtank cfd-loads 1"
 SETTLED_FORMAT = "towtank cfd-settled 1"
+
+MOST_COLUMNS = 8
+"""Columns of a history of probes or the like that are drawn."""
 
 MOST_DRAWN = 12
 """Cases that are drawn; those that have not settled come first."""
@@ -92,7 +96,7 @@ def write_loads(
         ("campaign.csv", csv_writer(lambda: campaign_table(sweep, loads))),
         ("loads.csv", csv_writer(lambda: loads_table(loads))),
     ]
-    provenance = _provenance(READ_FORMAT, loads, choices, sweep.findings)
+    provenance = read_provenance(READ_FORMAT, loads, choices, sweep.findings)
     return write_folder(Path(out), writers, provenance, progress)
 
 
@@ -105,10 +109,11 @@ def write_settled(
     report: bool = True,
     progress: Progress | None = None,
 ) -> list[Path]:
-    """Write ``settled.csv``, ``points.csv``, ``report.html`` and ``provenance.json``.
+    """Write ``settled.csv``, ``cycles.csv``, ``points.csv``, ``report.html`` and ``provenance.json``.
 
+    ``cycles.csv`` holds the harmonics of periodic loads cycle by cycle; it is left out where none is periodic.
     ``points.csv`` holds the means as points of a captive campaign; it is left out while a case has not settled and is
-    not waived.
+    not waived, and for histories that are no loads.
 
     Parameters
     ----------
@@ -130,7 +135,10 @@ def write_settled(
     writers: list[tuple[str, Writer]] = [
         ("settled.csv", csv_writer(lambda: settled_table(cases).merge(named, on="case", how="left")))
     ]
-    if not any(item.severity == "error" and not item.accepted for item in findings):
+    if any(channel.cycles is not None for item in cases for channel in item.settling.channels):
+        writers.append(("cycles.csv", csv_writer(lambda: cycles_table(cases))))
+    of_loads = not any(item.loads.history for item in cases)
+    if of_loads and not any(item.severity == "error" and not item.accepted for item in findings):
         writers.append(("points.csv", csv_writer(lambda: points_table(cases))))
     if report:
         writers.append(
@@ -141,7 +149,7 @@ def write_settled(
                 ),
             )
         )
-    provenance = _provenance(SETTLED_FORMAT, [item.loads for item in cases], choices, findings)
+    provenance = read_provenance(SETTLED_FORMAT, [item.loads for item in cases], choices, findings)
     return write_folder(Path(out), writers, provenance, progress)
 
 
@@ -174,6 +182,7 @@ def render_settling_report(
         "css": Markup((HERE / "report.css").read_text(encoding="utf-8")),
         "facts": settling_facts(cases),
         "verdicts": verdict_table(cases),
+        "history": next((item.loads.history for item in cases), ""),
         "rows": rows,
         "left_out": len(cases) - len(drawn),
         "steps": [(item.case.name, item.loads.steps, item.loads.notes) for item in drawn],
@@ -193,25 +202,37 @@ def drawn_cases(cases: Sequence[SettledCase], most: int = MOST_DRAWN) -> list[Se
 def settling_row(item: SettledCase, prefix: str) -> Row:
     """History and running mean of each fitted load of a case; amplitudes cycle by cycle for a periodic one."""
     # drawing needs matplotlib, which the command line must not load at its start
-    from .cfd_settling_figures import cycle_figure, running_mean_figure
+    from .cfd_settling_figures import cycle_figure, phase_figure, running_mean_figure
     from .figure_style import inline_svg
 
-    drawings = []
-    for name in item.fitted:
-        for kind, draw in (("mean", running_mean_figure), ("cycles", cycle_figure)):
-            if kind == "cycles" and item[name].cycles is None:
+    drawings: list[Drawing] = []
+    kinds = {"mean": running_mean_figure, "cycles": cycle_figure, "phase": phase_figure}
+    told = {"mean": "history and running mean", "cycles": "each cycle", "phase": "mean cycle"}
+    for name in item.fitted[:MOST_COLUMNS]:
+        for kind, draw in kinds.items():
+            if kind != "mean" and item[name].cycles is None:
                 continue
             axes = draw(item, name)
             whole = axes.get_figure(root=True)
             assert whole is not None
-            text = f"{name} of {item.case.name}: {'history and running mean' if kind == 'mean' else 'each cycle'}"
-            drawings.append(Drawing(inline_svg(whole, f"{prefix}-{name}-{kind}", text)))
+            text = f"{name} of {item.case.name}: {told[kind]}"
+            drawings.append(Drawing(inline_svg(whole, f"{prefix}-{len(drawings)}-{kind}", text)))
     return Row(item.case.name, tuple(drawings), item.settling.note)
 
 
-def _provenance(
+def read_provenance(
     kind: str, loads: Sequence[CaseLoads], choices: LoadChoices, findings: Sequence[Finding]
 ) -> dict[str, Any]:
+    """Provenance of what was read from cases: choices, and of each history its files, steps and notes.
+
+    Parameters
+    ----------
+    kind : str
+        Format of the folder.
+    loads : sequence of CaseLoads
+    choices : LoadChoices
+    findings : sequence of Finding
+    """
     return {
         "format": kind,
         "created": timestamp(),
@@ -219,7 +240,11 @@ def _provenance(
         "choices": vars(choices),
         "conventions": loads[0].conventions.to_dict() if loads else {},
         "cases": {
-            item.name: {"files": list(item.files), "steps": list(item.steps), "notes": list(item.notes)}
+            f"{item.name}/{item.history}" if item.history else item.name: {
+                "files": list(item.files),
+                "steps": list(item.steps),
+                "notes": list(item.notes),
+            }
             for item in loads
         },
         "findings": [vars(item) for item in findings],

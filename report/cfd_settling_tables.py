@@ -15,12 +15,18 @@ from .typography import fixed, significant
 if TYPE_CHECKING:
     import pandas as pd
 
+MOST_LOADS = 6
+"""Columns of means that stand beside the verdicts."""
+
 MARKS = {"still drifting": "weak", "too short": "weak", "diverged": "bad"}
 
 
 def verdict_table(cases: Sequence[SettledCase]) -> Table:
     """One row a case: motion, grid, verdict, cut, means of the fitted loads with their standard uncertainty."""
     loads = list(dict.fromkeys(name for item in cases for name in item.fitted))
+    # A history of many columns does not fit beside the verdict; its means stand below.
+    loads = loads if len(loads) <= MOST_LOADS else []
+    labels = {name: item.loads.labelled(name) for item in cases for name in item.fitted}
     columns = [
         Column("case", "short"),
         Column("verdict", "short"),
@@ -28,8 +34,7 @@ def verdict_table(cases: Sequence[SettledCase]) -> Table:
         Column("end", "number"),
     ]
     for name in loads:
-        unit = "N" if name in "XYZ" else "N m"
-        columns += [Column(f"{name} [{unit}]", "number"), Column("±", "number", "standard uncertainty")]
+        columns += [Column(labels[name], "number"), Column("±", "number", "standard uncertainty")]
     columns += [Column("drift to come", "number", "of the load with the worst verdict")]
     rows, marks = [], []
     for item in cases:
@@ -62,13 +67,13 @@ def load_table(item: SettledCase) -> Table:
         Column("drift to come", "number"),
         Column("±", "number"),
         Column("verdict", "short"),
-        Column("why"),
+        Column("why", "name"),
     ]
     rows, marks = [], []
     for name, channel in zip(item.names, item.settling.channels):
         rows.append(
             [
-                f"{name} [{'N' if name[0] in 'XYZ' else 'N m'}]",
+                item.loads.labelled(name),
                 fixed(channel.mean, _places(channel.se)),
                 *(significant(value, 2) for value in (channel.se, channel.batch_se)),
                 fixed(channel.n_eff, 0),
@@ -101,7 +106,7 @@ def settled_text(cases: Sequence[SettledCase]) -> str:
             rows.append(
                 {
                     "case": item.case.name,
-                    "load": f"{name} [{'N' if name in 'XYZ' else 'N m'}]",
+                    "load": item.loads.labelled(name),
                     "mean": channel.mean,
                     "se": channel.se,
                     "n_eff": channel.n_eff,

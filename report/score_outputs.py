@@ -32,7 +32,8 @@ def write_scores(
 
     Files are ``scores.csv`` (case, quantity, n, Q, BS, bias, rms, max_abs, unit), ``score_details.csv`` (with further
     scores and the deviations at full scale), ``errors.csv`` (point by point), ``totals.csv``, with several
-    computations ``ranking.csv``, ``scores.json``, ``report.html`` and ``provenance.json``.
+    computations ``ranking.csv``, with motions ``motions.csv``, ``scores.json``, ``report.html`` and
+    ``provenance.json``.
 
     Parameters
     ----------
@@ -61,6 +62,8 @@ def write_scores(
         ("totals.csv", csv_writer(lambda: scores.totals)),
         ("scores.json", lambda path: write_json(scores.to_dict(), path)),
     ]
+    if not scores.motions.empty:
+        writers.insert(4, ("motions.csv", csv_writer(lambda: scores.motions)))
     if len(scores.codes) > 1:
         writers.insert(4, ("ranking.csv", csv_writer(lambda: scores.ranking)))
     if report:
@@ -111,6 +114,9 @@ def score_text(scores: CodeScores) -> str:
             "totals over cases (Q weighted by n):",
             aligned_text(scores.totals, list(scores.totals.columns)),
         ]
+    if not scores.motions.empty:
+        lines += ["", "motions, amplitude and phase together:"]
+        lines.append(aligned_text(scores.motions, list(scores.motions.columns)))
     if len(scores.codes) > 1:
         shown = ["quantity", "rank", "code", "n", "Q", "BS", "bias", "rms", "max_abs", "note"]
         lines += ["", "ranked by rms:", aligned_text(scores.ranking, shown)]

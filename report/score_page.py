@@ -13,7 +13,7 @@ from .figure_style import PANEL, new_axes
 from .page_table import Column, Table, make_table
 from .score_figures import mean_error_figure, quality_figure, score_curve_figure, score_error_figure, shown_units
 from .squat_page import Part, Section, drawn, findings_section, provenance_section, render_squat_page
-from .squat_units import quantity_title
+from .squat_units import place_title, quantity_title
 from .typography import fixed, signed, significant
 
 
@@ -60,19 +60,51 @@ def score_parts(scores: CodeScores) -> tuple[Part, ...]:
         for number, unit in enumerate(units)
     ]
     parts = [Part(drawings=tuple(drawings)), Part("By case and quantity", tables=(case_table(scores),))]
+    if scores.scale != 1.0:
+        parts.append(Part("At full scale", tables=(full_scale_table(scores),)))
     if len(scores.totals) > len(scores.codes):
         parts.append(
             Part(
                 "Totals", ("Q is weighted by the number of points, BS is added.",), tables=(totals_table(scores),)
             )
         )
+    if not scores.motions.empty:
+        note = (
+            "Length of the difference of the phasors over that of the measured ones: 0 agrees, 1 says no motion."
+        )
+        parts.append(Part("Motions, amplitude and phase together", notes=(note,), tables=(motions_table(scores),)))
     return tuple(parts)
 
 
+def motions_table(scores: CodeScores) -> Table:
+    """Complex errors of motions in waves."""
+    columns = [
+        Column("computation", "short"),
+        Column("case", "short"),
+        Column("motion", "short"),
+        Column("n", "number"),
+    ]
+    columns += [Column("complex error", "number"), Column("amplitude [%]", "number", "mean of (|S| - |D|)/|D|")]
+    columns.append(Column("phase [°]", "number", "root mean square of the phase of S ahead of D"))
+    rows = [
+        (
+            str(of["code"]),
+            str(of["case"]) or "–",
+            quantity_title(str(of["motion"])),
+            str(of["n"]),
+            _known(of["complex_error"]),
+            "–" if math.isnan(of["amplitude_error [%]"]) else signed(of["amplitude_error [%]"], 1),
+            "–" if math.isnan(of["phase_difference [deg]"]) else fixed(of["phase_difference [deg]"], 1),
+        )
+        for of in scores.motions.to_dict("records")
+    ]
+    return make_table(columns, rows)
+
+
 def case_table(scores: CodeScores) -> Table:
-    """Scores by case and quantity, at full scale where a scale is given."""
-    full = scores.scale != 1.0
+    """Scores by case and quantity, in the units of the measurement."""
     shown = shown_units(scores)
+    noted = scores.details["note"].astype(bool).any()
     columns = [
         Column("case", "short"),
         Column("quantity", "short"),
@@ -81,28 +113,32 @@ def case_table(scores: CodeScores) -> Table:
     ]
     columns += [Column("BS", "number", "sum of the signs of D - S"), Column("bias", "number", "mean of S - D")]
     columns += [Column("rms", "number"), Column("max", "number", "largest |S - D|"), Column("unit", "short")]
-    if full:
-        columns += [
-            Column("bias, full scale", "number"),
-            Column("rms, full scale", "number"),
-            Column("unit", "short"),
-        ]
-    columns.append(Column("note"))
+    columns += [Column("note")] if noted else []
     rows, marks = [], []
     for of, more in zip(scores.scores.to_dict("records"), scores.details.to_dict("records"), strict=True):
         row = [str(of["case"]), quantity_title(str(of["quantity"])), str(of["n"]), fixed(100.0 * of["Q"], 1)]
         factor, unit = shown[str(of["quantity"])]
         row += [f"{of['BS']}/{of['n']}".replace("-", "−"), significant(factor * of["bias"])]
         row += [significant(factor * of["rms"]), significant(factor * of["max_abs"]), unit]
-        if full:
-            row += [
-                _known(more["bias_full_scale"]),
-                _known(more["rms_full_scale"]),
-                str(more["unit_full_scale"]) or "–",
-            ]
-        rows.append([*row, str(more["note"]) or "–"])
+        rows.append([*row, *([str(more["note"]) or "–"] if noted else [])])
         marks.append("weak" if more["note"] else "")
     return make_table(columns, rows, marks=marks)
+
+
+def full_scale_table(scores: CodeScores) -> Table:
+    """Deviations by case and quantity at full scale."""
+    columns = [Column("case", "short"), Column("quantity", "short"), Column("bias", "number", "mean of S - D")]
+    columns += [Column("rms", "number"), Column("max", "number", "largest |S - D|"), Column("unit", "short")]
+    rows = [
+        (
+            str(of["case"]),
+            quantity_title(str(of["quantity"])),
+            *(_known(more[f"{name}_full_scale"]) for name in ("bias", "rms", "max_abs")),
+            str(more["unit_full_scale"]) or "–",
+        )
+        for of, more in zip(scores.scores.to_dict("records"), scores.details.to_dict("records"), strict=True)
+    ]
+    return make_table(columns, rows, f"Lengths times {scores.scale:g}; angles as they are.")
 
 
 def _known(value: float) -> str:
@@ -159,15 +195,16 @@ def _points_table(scores: CodeScores) -> Table:
     has_cases = scores.measured.cases != [""]
     shown = shown_units(scores)
     has_z = scores.points["z"].notna().any()
-    columns = [Column("computation"), *([Column("case")] if has_cases else []), Column("quantity")]
+    columns = [Column("computation"), *([Column("case")] if has_cases else []), Column("quantity", "short")]
     columns += [Column(by, "number"), Column("D", "number"), Column("S", "number"), Column("S − D", "number")]
-    columns += [Column("unit", "short"), Column("(S − D)/D [%]", "number"), Column("(D − S)/D [%]", "number")]
+    columns += [Column("(S − D)/D [%]", "number"), Column("(D − S)/D [%]", "number")]
     columns += [Column("z", "number", "S - D over its combined standard uncertainty")] if has_z else []
     rows, marks = [], []
     for of in scores.points.to_dict("records"):
-        row = [str(of["code"]), *([str(of["case"])] if has_cases else []), quantity_title(str(of["quantity"]))]
         factor, unit = shown[str(of["quantity"])]
-        row += [significant(of[by], 4), *(_known(factor * of[name]) for name in ("D", "S", "S - D")), unit]
+        named = f"{place_title(str(of['quantity']))} [{unit or '-'}]"
+        row = [str(of["code"]), *([str(of["case"])] if has_cases else []), named]
+        row += [significant(of[by], 4), *(_known(factor * of[name]) for name in ("D", "S", "S - D"))]
         row += [signed(of["(S - D)/D [%]"], 1), signed(of["(D - S)/D [%]"], 1)]
         rows.append([*row, *([signed(of["z"], 1)] if has_z else [])])
         marks.append("weak" if math.isnan(of["S - D"]) else "")

@@ -13,7 +13,7 @@ from ..squat.squat_analysis import CONVENTIONS, SquatAnalysis
 from .aligned_text import aligned_text
 from .provenance_tables import setting_text
 from .result_folder import Progress, Writer, csv_writer, require_folder, timestamp, write_folder, write_json
-from .squat_units import shown_quantity, with_error
+from .squat_units import harmonics_of, shown_quantity, with_error
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -39,8 +39,8 @@ def write_squat(
 
     Files are ``squat.csv`` (run, quantity, mean, se, n_eff, window_start, window_end, unit), ``squat.json``,
     ``report.html`` and ``provenance.json``; where there is something to say also ``squat_repeats.csv``,
-    ``squat_waves.csv``, ``squat_curve.csv``, ``squat_fits.csv``, ``squat_formulas.csv`` and, for models,
-    ``squat_full_scale.csv``; with a correction ``squat_corrected.csv``. All in SI with all digits.
+    ``squat_waves.csv``, ``squat_rao.csv``, ``squat_curve.csv``, ``squat_fits.csv``, ``squat_formulas.csv`` and, for
+    models, ``squat_full_scale.csv``; with a correction ``squat_corrected.csv``. All in SI with all digits.
 
     Parameters
     ----------
@@ -67,6 +67,7 @@ def write_squat(
         ("squat.csv", csv_writer(analysis.squat_frame)),
         ("squat_repeats.csv", _when_rows(analysis.repeats_frame)),
         ("squat_waves.csv", _when_rows(analysis.waves_frame)),
+        ("squat_rao.csv", _when_rows(analysis.responses_frame)),
         ("squat_curve.csv", _when_rows(analysis.curve_frame)),
         ("squat_fits.csv", _when_rows(analysis.fits_frame)),
         ("squat_full_scale.csv", _when_rows(analysis.full_scale_frame)),
@@ -115,7 +116,8 @@ def squat_provenance(analysis: SquatAnalysis, created: datetime | None = None) -
 def squat_text(analysis: SquatAnalysis) -> str:
     """What a terminal shows: the means of every run, repeats, waves, curves."""
     parts = [_runs_text(analysis)]
-    parts += [text for text in (_repeats_text(analysis), _waves_text(analysis), _curves_text(analysis)) if text]
+    more = (_repeats_text, _waves_text, _responses_text, _curves_text)
+    parts += [text for text in (say(analysis) for say in more) if text]
     return "\n\n".join(parts)
 
 
@@ -178,7 +180,7 @@ def _waves_text(analysis: SquatAnalysis) -> str:
     if frame.empty:
         return ""
     length = analysis.campaign.length
-    orders = [int(str(name).removeprefix("amplitude_")) for name in frame if str(name).startswith("amplitude_")]
+    orders = harmonics_of(frame)
     rows = []
     for of in frame.to_dict("records"):
         head, times = _heading(str(of["quantity"]), str(of["unit"]), length)
@@ -188,12 +190,35 @@ def _waves_text(analysis: SquatAnalysis) -> str:
             "mean": with_error(times * of["mean"], times * of["se"]),
         }
         for order in orders:
-            row[f"a{order}"] = times * float(of[f"amplitude_{order}"])
+            row[f"A{order}"] = with_error(times * of[f"amplitude_{order}"], times * of[f"amplitude_{order}_se"])
             row[f"phase{order} [deg]"] = f"{math.degrees(float(of[f'phase_{order}'])):.1f}"
         row["omega [rad/s]"] = float(of["omega"])
         rows.append(row)
     table = pd.DataFrame(rows)
     return aligned_text(table, list(table.columns))
+
+
+def _responses_text(analysis: SquatAnalysis) -> str:
+    import pandas as pd
+
+    frame = analysis.responses_frame()
+    if frame.empty:
+        return ""
+    rows = [
+        {
+            "response in waves": of["run"],
+            "quantity": str(of["quantity"]).removeprefix("sinkage_"),
+            "per m of wave": with_error(of["ratio"], of["ratio_se"]),
+            "unit": of["unit"],
+            "phase [deg]": with_error(math.degrees(of["phase"]), math.degrees(of["phase_se"])),
+            "wave amplitude [m]": f"{of['wave_amplitude']:.4g}",
+            "wave length [m]": f"{of['wave_length']:.4g}",
+        }
+        for of in frame.to_dict("records")
+    ]
+    place = float(frame["reference_x"].iloc[0])
+    note = f"phase: lead over the wave crest at x = {place:.4g} m (CoG); sinkage down, elevation up"
+    return f"{aligned_text(pd.DataFrame(rows), list(rows[0]))}\n\n{note}"
 
 
 def _curves_text(analysis: SquatAnalysis) -> str:

@@ -9,7 +9,6 @@ import numpy as np
 from ..squat.fairway import Fairway
 from ..squat.forecast import SquatForecast
 from ..squat.prediction import SquatPrediction
-from .figure_style import spread_evenly
 from .formula_figures import formula_clearance_figure, formula_figure
 from .page_table import Column, Table, make_table
 from .ship_particulars import particulars
@@ -18,7 +17,7 @@ from .squat_prediction_outputs import water_text
 from .squat_units import shown_length
 from .typography import fixed, significant
 
-_MOST_SPEEDS = 11
+_MOST_SPEEDS = 9
 
 
 def render_prediction(forecast: SquatForecast, *, created: datetime | None = None) -> str:
@@ -54,7 +53,7 @@ def render_prediction(forecast: SquatForecast, *, created: datetime | None = Non
             "Formulas",
             (
                 Part(drawings=tuple(drawings[:1])),
-                Part("Largest squat", tables=(formula_table(prediction, ship.L, knots=knots),), kind="long"),
+                numbers_part("Largest squat", prediction, ship.L, knots=knots),
                 Part("By place", drawings=tuple(drawings[1:])),
                 Part("Sources", lines=source_lines(prediction)),
             ),
@@ -91,6 +90,22 @@ def render_prediction(forecast: SquatForecast, *, created: datetime | None = Non
     )
 
 
+def numbers_part(title: str, prediction: SquatPrediction, length: float, *, knots: bool) -> Part:
+    """Squat by formula and speed, and below it the limits that are broken."""
+    return Part(
+        title, tables=(formula_table(prediction, length, knots=knots),), lines=limit_lines(prediction), kind="long"
+    )
+
+
+def limit_lines(prediction: SquatPrediction) -> tuple[tuple[str, str], ...]:
+    """Formula, and the limits that it breaks at one speed or more."""
+    return tuple(
+        (str(name), flag)
+        for name, of in prediction.table.groupby("formula", sort=False)
+        if (flag := next((str(text) for text in of["flag"] if text), ""))
+    )
+
+
 def formula_table(prediction: SquatPrediction, length: float, *, knots: bool, place: str = "maximum") -> Table:
     """Squat by formula and speed; values outside the limits in brackets, formulas that never apply shaded."""
     factor, unit = shown_length(length)
@@ -99,11 +114,11 @@ def formula_table(prediction: SquatPrediction, length: float, *, knots: bool, pl
     # repeats of a measured speed would only fill the table
     heads = first["knots" if knots else "speed"].map(lambda value: f"{value:.3g}")
     distinct = np.flatnonzero(~heads.duplicated().to_numpy())
-    picked = distinct[spread_evenly(len(distinct), _MOST_SPEEDS)]
+    step = max(-(-(len(distinct) - 1) // (_MOST_SPEEDS - 1)), 1)
+    picked = distinct[::step] if (len(distinct) - 1) % step == 0 else np.r_[distinct[::step], distinct[-1]]
     over = first["knots" if knots else "speed"].iloc[picked]
     columns = [Column("formula", "short")]
-    columns += [Column(f"{value:.4g} {'kn' if knots else 'm/s'}", "number") for value in over]
-    columns.append(Column("outside its limits"))
+    columns += [Column(f"{value:.4g}", "number") for value in over]
     rows: list[tuple[bool, list[str]]] = []
     for name, of in table.groupby("formula", sort=False):
         part = of.iloc[picked]
@@ -113,10 +128,11 @@ def formula_table(prediction: SquatPrediction, length: float, *, knots: bool, pl
             else f"({fixed(factor * value, 3 if unit == 'm' else 2)})"
             for value, inside in zip(part[place], part["applicable"], strict=True)
         ]
-        flag = next((text for text in of["flag"] if text), "–")
-        rows.append((bool(of["applicable"].any()), [str(name), *cells, flag]))
+        rows.append((bool(of["applicable"].any()), [str(name), *cells]))
     rows.sort(key=lambda row: not row[0])
-    caption = f"In {unit}, positive down. In brackets or grey: outside the limits that stand at the right."
+    speeds = f"Speeds in {'kn' if knots else 'm/s'}; squat in {unit}, positive down."
+    speeds += " Further speeds are in the files beside this page." if step > 1 else ""
+    caption = f"{speeds} In brackets or grey: outside the limits that stand below."
     return make_table(columns, [row for _, row in rows], caption, ["" if inside else "grey" for inside, _ in rows])
 
 

@@ -8,7 +8,8 @@ from datetime import datetime
 import numpy as np
 
 from ..squat.named_corrections import CORRECTIONS
-from ..squat.squat_analysis import CONVENTIONS, SquatAnalysis, SquatGroup
+from ..squat.squat_analysis import CONVENTIONS, SquatAnalysis
+from ..squat.squat_group import SquatGroup
 from ..squat.squat_run import SquatRun
 from .drawings import Drawing
 from .figure_style import new_axes
@@ -24,7 +25,7 @@ from .squat_figures import (
     squat_residual_figure,
 )
 from .squat_page import Part, Section, drawn, findings_section, provenance_section, render_squat_page
-from .squat_prediction_page import formula_table, source_lines
+from .squat_prediction_page import numbers_part, source_lines
 from .squat_tables import (
     clearance_table,
     corrected_table,
@@ -32,8 +33,10 @@ from .squat_tables import (
     formula_scores_table,
     means_table,
     repeats_table,
+    responses_table,
     squat_facts,
     waves_table,
+    windows_table,
 )
 
 MOST_RECORDS = 12
@@ -97,7 +100,10 @@ def render_squat_report(
 def _means(analysis: SquatAnalysis) -> tuple[Part, ...]:
     conventions = f"{CONVENTIONS[0].upper()}{CONVENTIONS[1:]}, shown in mm and mm/m for models."
     note = f"{conventions} ± is the standard error; neighbouring samples count once."
-    parts = [Part(notes=(note,), tables=(means_table(analysis),))]
+    parts = [
+        Part(notes=(note,), tables=(means_table(analysis),)),
+        Part("Windows", tables=(windows_table(analysis),)),
+    ]
     if analysis.repeats:
         parts.append(Part("Repeats", tables=(repeats_table(analysis),)))
     return tuple(parts)
@@ -105,7 +111,16 @@ def _means(analysis: SquatAnalysis) -> tuple[Part, ...]:
 
 def _waves(analysis: SquatAnalysis) -> tuple[Part, ...]:
     note = "Mean and harmonics A cos(k ωₑ t + phase); the frequency of encounter is found with them unless it is given."
-    return (Part(notes=(note,), tables=(waves_table(analysis),)),)
+    parts = [Part(notes=(note,))]
+    for run in analysis.runs:
+        if run.waves is not None:
+            parts.append(Part(run.name, tables=(waves_table(analysis, run.waves),)))
+        if run.responses is not None:
+            gauge = analysis.campaign.channels.wave
+            said = f"First harmonics over the wave at gauge {gauge}, its phase moved to the centre of gravity."
+            table = responses_table(analysis, run.responses)
+            parts.append(Part(f"{run.name}: response to the waves", notes=(said,), tables=(table,)))
+    return tuple(parts)
 
 
 def _records(analysis: SquatAnalysis) -> tuple[Part, ...]:
@@ -113,7 +128,7 @@ def _records(analysis: SquatAnalysis) -> tuple[Part, ...]:
     more = len(analysis.runs) - len(figures)
     notes = (f"{more} further records are in the tables and not drawn.",) if more > 0 else ()
     steps = tuple((run.name, "; ".join(run.steps)) for run in analysis.runs)
-    return (Part(notes=notes, drawings=figures, size="wide"), Part("Windows", lines=steps))
+    return (Part(notes=notes, drawings=figures, size="wide"), Part("What was done", lines=steps))
 
 
 def _record(run: SquatRun, number: int) -> Drawing:
@@ -212,7 +227,7 @@ def _formulas(group: SquatGroup, number: int, length: float) -> tuple[Part, ...]
     return (
         Part(notes=(note,), drawings=tuple(drawings[:1]), tables=(formula_scores_table(comparison, length),)),
         Part("By place", drawings=tuple(drawings[1:])),
-        Part("Numbers", tables=(formula_table(comparison.prediction, length, knots=False),), kind="long"),
+        numbers_part("Numbers", comparison.prediction, length, knots=False),
         Part("Sources", lines=source_lines(comparison.prediction)),
     )
 

@@ -9,64 +9,95 @@ import numpy as np
 from ..core.errors import TowtankError
 from ..squat.formula_comparison import FormulaComparison
 from ..squat.scaling_error import clearance_with_allowance
-from ..squat.squat_analysis import SquatAnalysis, SquatGroup
+from ..squat.squat_analysis import SquatAnalysis
 from ..squat.squat_curve import SquatCurve
+from ..squat.squat_group import SquatGroup
+from ..squat.squat_in_waves import SquatInWaves
+from ..squat.steady_squat import SteadySquat
+from ..squat.wave_response import WaveResponses
 from .page_table import Column, Table, make_table
-from .squat_units import quantity_title, shown_length, shown_quantity
+from .squat_units import (
+    harmonics_of,
+    place_title,
+    quantity_title,
+    short_title,
+    shown_length,
+    shown_quantity,
+    value_and_error,
+)
 from .typography import fixed, signed, significant
 
+_SEEN = 3.0
+"""Standard errors above which an amplitude is there and has a phase."""
 _MODELS = {"depth-froude": "c Fh²/√(1 − Fh²)", "power": "c V^p"}
 
 
-def _with_error(value: float, error: float) -> tuple[str, str]:
-    """Value and standard error with the decimals that the error supports."""
-    if not (math.isfinite(error) and error > 0.0):
-        return significant(value, 4), "–"
-    places = max(1 - math.floor(math.log10(error)), 0)
-    return fixed(value, places), fixed(error, places)
+def _one(value: float, error: float) -> str:
+    """Value and standard error in one cell."""
+    shown, error_shown = value_and_error(value, error)
+    return f"{shown} ± {error_shown}" if error_shown else shown
+
+
+_MAIN = ("sinkage_bow", "sinkage_stern", "sinkage_midship", "sinkage_cog", "trim")
 
 
 def means_table(analysis: SquatAnalysis) -> Table:
-    """Means of every run over its window."""
-    length = analysis.campaign.length
-    names = list(dict.fromkeys(name for one in analysis.steady for name in one.means))
-    units = {name: one.units[name] for one in analysis.steady for name in one.means}
-    columns = [Column("run")]
-    for name in names:
-        columns += [Column(f"{_short(name)} [{shown_quantity(units[name], length)[1]}]", "number")]
-        columns += [] if name == "speed" else [Column("±", "number", "standard error")]
-    columns += [Column("window [s]", "number"), Column("n eff", "number", "independent samples in the trim")]
-    rows, marks = [], []
+    """Sinkage and trim of every run over its window."""
+    names = [name for name in _MAIN if any(name in one.means for one in analysis.steady)]
+    columns = [Column("run"), *(_mean_column(analysis, name) for name in names), Column("speed [m/s]", "number")]
+    rows = [[one.run, *(_mean(analysis, one, name) for name in (*names, "speed"))] for one in analysis.steady]
+    return make_table(columns, rows, "Shaded: the window still drifts.", _drifting(analysis))
+
+
+def windows_table(analysis: SquatAnalysis) -> Table:
+    """Window of every run, the samples that count in it, and what else was averaged over it."""
+    names = dict.fromkeys(name for one in analysis.steady for name in one.means if name not in (*_MAIN, "speed"))
+    columns = [Column("run"), Column("window [s]", "number")]
+    columns += [Column("n eff", "number", "independent samples in the trim")]
+    columns += [_mean_column(analysis, name) for name in names]
+    rows = []
     for one in analysis.steady:
-        row = [one.run]
-        for name in names:
-            factor = shown_quantity(units[name], length)[0]
-            of = one.means.get(name)
-            cells = ("–", "–") if of is None else _with_error(factor * float(of.mean), factor * float(of.se))
-            row += [significant(float(of.mean), 4) if of is not None else "–"] if name == "speed" else list(cells)
-        row += [f"{fixed(one.window.start_time, 1)} … {fixed(one.window.stop_time, 1)}"]
-        row.append(f"{float(one.means['trim'].n_eff):.0f}")
-        rows.append(row)
-        marks.append("" if one.window.is_stationary or _in_waves(analysis, one.run) else "weak")
-    return make_table(columns, rows, "Shaded: the window still drifts.", marks)
+        window = f"{fixed(one.window.start_time, 1)} … {fixed(one.window.stop_time, 1)}"
+        row = [one.run, window, f"{float(one.means['trim'].n_eff):.0f}"]
+        rows.append(row + [_mean(analysis, one, name) for name in names])
+    return make_table(columns, rows, marks=_drifting(analysis))
+
+
+def _mean_column(analysis: SquatAnalysis, name: str) -> Column:
+    unit = next(one.units[name] for one in analysis.steady if name in one.units)
+    return Column(short_title(name, unit, analysis.campaign.length), "number", "± standard error")
+
+
+def _mean(analysis: SquatAnalysis, one: SteadySquat, name: str) -> str:
+    of = one.means.get(name)
+    if of is None:
+        return "–"
+    if name == "speed":
+        return significant(float(of.mean), 4)
+    factor = shown_quantity(one.units[name], analysis.campaign.length)[0]
+    return _one(factor * float(of.mean), factor * float(of.se))
+
+
+def _drifting(analysis: SquatAnalysis) -> list[str]:
+    return ["" if one.window.is_stationary or _in_waves(analysis, one.run) else "weak" for one in analysis.steady]
 
 
 def _in_waves(analysis: SquatAnalysis, run: str) -> bool:
     return any(one.waves is not None and one.name == run for one in analysis.runs)
 
 
-def _short(name: str) -> str:
-    place = name.removeprefix("sinkage_")
-    return {"cog": "CoG"}.get(place, place)
-
-
 def repeats_table(analysis: SquatAnalysis) -> Table:
     """Pooled repeats with their Student-t intervals."""
     length = analysis.campaign.length
-    columns = [Column("condition"), Column("quantity"), Column("n", "number"), Column("mean", "number")]
+    columns = [
+        Column("condition", "short"),
+        Column("quantity", "short"),
+        Column("n", "number"),
+        Column("mean", "number"),
+    ]
     columns += [Column("± 95 %", "number", "half the Student-t interval of the mean")]
     columns += [
-        Column("sd between runs", "number"),
+        Column("sd", "number", "between the runs"),
         Column("one further run ±", "number", "95 %"),
         Column("unit", "short"),
     ]
@@ -76,7 +107,7 @@ def repeats_table(analysis: SquatAnalysis) -> Table:
             if name == "speed":
                 continue
             factor, unit = shown_quantity(one.runs[0].units[name], length)
-            mean, half = _with_error(factor * of.mean, factor * of.half_width)
+            mean, half = value_and_error(factor * of.mean, factor * of.half_width)
             rows.append(
                 (
                     one.condition,
@@ -92,37 +123,59 @@ def repeats_table(analysis: SquatAnalysis) -> Table:
     return make_table(columns, rows)
 
 
-def waves_table(analysis: SquatAnalysis) -> Table:
-    """Mean, amplitudes and phases of the runs in waves."""
+def waves_table(analysis: SquatAnalysis, waves: SquatInWaves) -> Table:
+    """Mean, amplitudes and phases of one run in waves."""
     length = analysis.campaign.length
-    frame = analysis.waves_frame()
-    orders = [str(name).removeprefix("amplitude_") for name in frame if str(name).startswith("amplitude_")]
-    columns = [
-        Column("run"),
-        Column("quantity"),
-        Column("mean", "number"),
-        Column("±", "number", "standard error"),
-    ]
+    frame = waves.frame
+    orders = harmonics_of(frame)
+    columns = [Column("quantity", "short"), Column("mean", "number", "± standard error")]
     for order in orders:
-        columns += [Column(f"A{order}", "number"), Column(f"phase {order} [deg]", "number")]
-    columns += [Column("unit", "short"), Column("ωₑ [rad/s]", "number"), Column("R²", "number")]
+        columns += [Column(f"A{order}", "number", "± standard error"), Column(f"phase {order} [°]", "number")]
     rows = []
     for of in frame.to_dict("records"):
-        factor, unit = shown_quantity(str(of["unit"]), length)
-        row = [str(of["run"]), quantity_title(str(of["quantity"]))]
-        row += _with_error(factor * of["mean"], factor * of["se"])
+        factor = shown_quantity(str(of["unit"]), length)[0]
+        row = [short_title(str(of["quantity"]), str(of["unit"]), length)]
+        row.append(_one(factor * of["mean"], factor * of["se"]))
         for order in orders:
-            row += [significant(factor * of[f"amplitude_{order}"])]
-            row += [fixed(math.degrees(of[f"phase_{order}"]), 1)]
-        rows.append([*row, unit, fixed(of["omega"], 4), fixed(of["r2"], 4)])
-    return make_table(columns, rows)
+            size, error = of[f"amplitude_{order}"], of[f"amplitude_{order}_se"]
+            row.append(_one(factor * size, factor * error))
+            row.append(fixed(math.degrees(of[f"phase_{order}"]), 1) if size > _SEEN * error else "–")
+        rows.append(row)
+    frequency = _one(waves.omega, waves.omega_se)
+    caption = f"ωₑ = {frequency} rad/s, {waves.start:.1f} to {waves.stop:.1f} s."
+    return make_table(columns, rows, f"{caption} A dash: the amplitude is below three standard errors.")
+
+
+def responses_table(analysis: SquatAnalysis, responses: WaveResponses) -> Table:
+    """Motions of one run over the wave at its gauge."""
+    columns = [Column("quantity", "short"), Column("per m of wave", "number", "± standard error")]
+    columns += [Column("unit", "short"), Column("over wave slope", "number", "trim over k ζ")]
+    columns += [Column("phase [°]", "number", "lead over the wave crest at the CoG, ± standard error")]
+    rows = []
+    for of in responses.frame.to_dict("records"):
+        rows.append(
+            (
+                quantity_title(str(of["quantity"])),
+                _one(of["ratio"], of["ratio_se"]),
+                str(of["unit"]),
+                significant(of["over_slope"]) if math.isfinite(of["over_slope"]) else "–",
+                _one(math.degrees(of["phase"]), math.degrees(of["phase_se"])),
+            )
+        )
+    factor, unit = shown_length(analysis.campaign.length)
+    wave, height = responses.wave, float(responses.frame["wave_amplitude"].iloc[0])
+    caption = (
+        f"Head waves of {significant(factor * height)} {unit} amplitude and {significant(wave.length, 4)} m length, "
+        f"ω = {significant(wave.omega, 4)} rad/s. Sinkage is positive down and the elevation up."
+    )
+    return make_table(columns, rows, caption)
 
 
 def fits_table(analysis: SquatAnalysis, group: SquatGroup) -> Table:
     """Parameters of the curves, with the truth of virtual records."""
     length = analysis.campaign.length
-    columns = [Column("quantity"), Column("curve"), Column("c", "number"), Column("±", "number", "standard error")]
-    columns += [Column("p", "number"), Column("±", "number", "standard error"), Column("unit of c", "short")]
+    columns = [Column("quantity"), Column("curve", "short"), Column("c", "number", "± standard error")]
+    columns += [Column("unit of c", "short"), Column("p", "number", "± standard error")]
     columns += [Column("scatter", "number"), Column("points", "number")]
     columns += [Column("true c", "number")] if analysis.truth else []
     rows = []
@@ -132,9 +185,10 @@ def fits_table(analysis: SquatAnalysis, group: SquatGroup) -> Table:
             errors = np.sqrt(np.diagonal(fit.cov))
             power = model == "power"
             row = [quantity_title(quantity), _MODELS[model]]
-            row += _with_error(factor * float(fit.params[0]), factor * float(errors[0]))
-            row += _with_error(float(fit.params[1]), float(errors[1])) if power else ("–", "–")
-            row += [f"{unit} (s/m)^p" if power else unit, significant(factor * fit.residual_sd, 2)]
+            row.append(_one(factor * float(fit.params[0]), factor * float(errors[0])))
+            row.append(f"{unit} (s/m)^p" if power else unit)
+            row.append(_one(float(fit.params[1]), float(errors[1])) if power else "–")
+            row.append(significant(factor * fit.residual_sd, 2))
             row.append(str(fit.dof + len(fit.params)))
             if analysis.truth:
                 known = quantity in analysis.truth and not power
@@ -225,7 +279,7 @@ def corrected_table(curve: SquatCurve, corrected: SquatCurve, length: float) -> 
     columns = [Column("speed [m/s]", "number"), Column("corrected [m/s]", "number")]
     names = ("sinkage_bow", "sinkage_stern")
     for name in names:
-        columns += [Column(f"{_short(name)} [{unit}]", "number"), Column(f"corrected [{unit}]", "number")]
+        columns += [Column(f"{place_title(name)} [{unit}]", "number"), Column(f"corrected [{unit}]", "number")]
     rows = []
     for (_, before), (_, after) in zip(curve.points.iterrows(), corrected.points.iterrows(), strict=True):
         row = [fixed(float(before["speed"]), 4), fixed(float(after["speed"]), 4)]
@@ -248,13 +302,15 @@ def squat_facts(analysis: SquatAnalysis) -> list[tuple[str, str, str]]:
     facts = [("runs", str(len(analysis.runs)), f"{len(analysis.repeats)} condition(s) repeated")]
     if deepest is not None:
         one, name, of = deepest
-        value, error = _with_error(factor * float(of.mean), factor * float(of.se))
+        value, error = value_and_error(factor * float(of.mean), factor * float(of.se))
         at = f" at {float(one.means['speed'].mean):.3g} m/s" if "speed" in one.means else ""
-        facts.append(("largest sinkage", f"{value} {unit}", f"± {error} {unit}, {_short(name)}{at}, {one.run}"))
+        facts.append(
+            ("largest sinkage", f"{value} {unit}", f"± {error} {unit}, {place_title(name)}{at}, {one.run}")
+        )
     for group in analysis.groups:
         fit = group.fits.get("sinkage_bow", {}).get("depth-froude")
         if fit is not None:
-            value, error = _with_error(factor * float(fit.params[0]), factor * float(fit.cov[0, 0]) ** 0.5)
+            value, error = value_and_error(factor * float(fit.params[0]), factor * float(fit.cov[0, 0]) ** 0.5)
             facts.append(("bow curve", f"c {value} {unit}", f"± {error} {unit}, {group.label}"))
         left = group.curve.clearance()
         share = 100.0 * float(left.min()) / (group.curve.depth - group.curve.draught)

@@ -3,6 +3,7 @@
 =====================================  ==================================================================
 ``sinkage_layout``, ``sinkage_record``  channels, and a run as sinkage and trim over time
 ``steady_squat``, ``speed_steps``       means over a window; ``squat_in_waves`` with harmonics
+``wave_response``                       motions over the wave that a gauge saw
 ``squat_curve``, ``repeated_runs``      sinkage over speed with bands; repeats pooled
 ``squat_campaign``, ``squat_analysis``  a campaign file, and all that it yields
 ``rtk_antennas``, ``full_scale``        a voyage: tide, density, static reference, steady and unsteady squat
@@ -25,7 +26,7 @@ _HOMES = {
     "forecast": ("SquatForecast",),
     "formula_comparison": ("FormulaComparison", "beside_formulas"),
     "full_scale": ("FullScaleSquat", "reduce_full_scale"),
-    "head_waves": ("HeadWave", "met_wave", "phase_at", "wave_number"),
+    "head_waves": ("HeadWave", "met_wave", "phase_at", "wave_number", "wave_of_encounter"),
     "named_corrections": ("CORRECTIONS", "ShipInWater", "correct_curve", "correct_record"),
     "noise_filter": ("FILTERS", "filter_record"),
     "prediction": ("FORMULAS", "SquatPrediction", "predict"),
@@ -44,7 +45,9 @@ _HOMES = {
     "squat_in_waves": ("SquatInWaves", "reduce_in_waves"),
     "static_reference": ("StaticReference",),
     "steady_squat": ("SteadySquat", "reduce_steady"),
+    "tabled_curve": ("TabledCurve", "read_squat_curve"),
     "tide": ("TideTable", "read_water_level"),
+    "wave_response": ("WaveResponses", "wave_responses"),
     "under_keel": ("DynamicClearance", "dynamic_clearance", "gross_clearance"),
 }
 

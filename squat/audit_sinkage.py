@@ -180,6 +180,9 @@ def _of_size(table: RawTable, layout: SinkageLayout, name: str, known: np.ndarra
         return [Finding("no-unit", "warning", "has no unit; taken as SI", table.path, place, "declare the unit")]
     if name not in layout.sinkage_channels or name == layout.trim:
         return []
+    if conversion(unit).dimension != "length":
+        # A force has no size in m: what the unit may be is told when the channel is brought to SI.
+        return []
     # The median of the sizes: one spike is not a unit.
     usual = float(np.median(np.abs(known))) * conversion(unit).factor
     if usual <= LARGEST_SHARE_OF_LENGTH * layout.length:

@@ -18,6 +18,7 @@ from ..formats.units import conversion
 from ..verify.curve_scores import pooled_scores, score_codes, score_curves
 from ..verify.scores import at_measured_points, relative_errors, z_score
 from .curve_table import CASE, CurveTable
+from .motion_scores import PHASE, motion_scores, motions_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -56,6 +57,8 @@ class CodeScores:
         quantity (or ``all [unit]``), rank, code and scores; smallest rms first.
     totals : DataFrame
         code, quantity (``all`` too), n, Q and BS over all cases.
+    motions : DataFrame
+        Complex errors of motions that have amplitude and phase, see :func:`.motion_scores.motion_scores`.
     findings : tuple of Finding
     """
 
@@ -66,6 +69,7 @@ class CodeScores:
     points: pd.DataFrame
     ranking: pd.DataFrame
     totals: pd.DataFrame
+    motions: pd.DataFrame
     findings: tuple[Finding, ...]
 
     @property
@@ -95,6 +99,7 @@ class CodeScores:
             "details": plain_rows(self.details),
             "ranking": plain_rows(self.ranking),
             "totals": plain_rows(self.totals),
+            "motions": plain_rows(self.motions),
             "points": plain_rows(self.points),
             "findings": [vars(item) for item in self.findings],
         }
@@ -171,6 +176,7 @@ def score_tables(
         frame,
         _ranking(frame),
         _totals(details),
+        motion_scores(measured, brought),
         tuple(dict.fromkeys(found)),
     )
 
@@ -197,14 +203,16 @@ def _pairs(
             found.append(
                 Finding("case-missing", "warning", f"case {case} is not computed", code.path, cure="compute it")
             )
+    # 359 and 1 degrees are alike: a phase is scored with its amplitude, as a phasor
+    aside = [CASE, *(name + PHASE for name in motions_of(measured))]
     missing = [name for name in measured.quantities if name not in code.quantities]
     if missing and len(missing) < len(measured.quantities):
         found.append(Finding("quantity-missing", "info", f"not computed: {', '.join(missing)}", code.path))
     for case in shared:
         yield (
             case,
-            measured.frame[measured.frame[CASE] == case].drop(columns=CASE),
-            code.frame[code.frame[CASE] == case].drop(columns=CASE),
+            measured.frame[measured.frame[CASE] == case].drop(columns=aside),
+            code.frame[code.frame[CASE] == case].drop(columns=aside, errors="ignore"),
         )
 
 

@@ -30,6 +30,7 @@ from .water_density import density_sinkage
 if TYPE_CHECKING:
     import pandas as pd
 
+_ROUNDING = 1e-12
 PLACES = ("bow", "stern", "midship", "cog")
 
 
@@ -165,8 +166,10 @@ class FullScaleSquat:
         if not np.isfinite(values).any():
             return name, np.nan, np.nan, np.nan, rss, linear, unit
         row = int(np.nanargmax(values))
+        # What a mean leaves of its own reference is rounding.
+        most = float(values[row]) if abs(values[row]) > _ROUNDING else 0.0
         speed = np.nan if self.record.speed is None else float(self.record.speed[row])
-        return name, float(values[row]), float(self.record.time[row]), speed, rss, linear, unit
+        return name, most, float(self.record.time[row]), speed, rss, linear, unit
 
 
 def reduce_full_scale(

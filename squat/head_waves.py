@@ -109,6 +109,40 @@ def met_wave(period: float, depth: float, speed: float = 0.0, angle: float = HEA
     return HeadWave(omega, k, omega - k * speed * math.cos(angle), depth, speed)
 
 
+def wave_of_encounter(omega_encounter: float, depth: float, speed: float = 0.0) -> HeadWave:
+    """The head wave that a ship meets with a given frequency.
+
+    Parameters
+    ----------
+    omega_encounter : float
+        Frequency of encounter in rad/s, positive.
+    depth : float
+        Water depth in m.
+    speed : float
+        Speed of the ship in m/s, not negative: from ahead each frequency of encounter has one wave.
+
+    Raises
+    ------
+    TowtankError
+        When frequency or depth is not positive, or the speed is negative.
+    """
+    if not (speed >= 0.0 and math.isfinite(speed)):
+        raise TowtankError(f"a speed of {speed:g} m/s meets no head waves", cure="give the speed ahead in m/s")
+    low, high = 0.0, omega_encounter
+    wave_number(omega_encounter, depth)
+    # omega + k(omega) V rises with omega: halving the interval cannot miss its one root.
+    for _ in range(200):
+        omega = 0.5 * (low + high)
+        if omega in (low, high):
+            break
+        if omega + wave_number(omega, depth) * speed > omega_encounter:
+            high = omega
+        else:
+            low = omega
+    omega = high
+    return HeadWave(omega, wave_number(omega, depth), omega_encounter, depth, speed)
+
+
 def phase_at(phase: float, x_from: float, x_to: float, k: float, angle: float = HEAD) -> float:
     """Phase lead of a wave elevation, moved from one place along the ship to another.
 

@@ -50,7 +50,7 @@ class SquatInWaves:
 
     @property
     def frame(self) -> pd.DataFrame:
-        """One row a quantity: mean, its standard error, amplitude and phase (rad, lead) of each harmonic, unit."""
+        """One row a quantity: mean, amplitude and phase (rad, lead) of each harmonic with standard errors, unit."""
         import pandas as pd
 
         rows = []
@@ -61,9 +61,10 @@ class SquatInWaves:
                 "mean": float(fit.mean),
                 "se": float(fit.se_mean),
             }
-            for order in range(fit.order):
-                row[f"amplitude_{order + 1}"] = float(fit.amplitude[order])
-                row[f"phase_{order + 1}"] = float(fit.phase[order])
+            for number in range(1, fit.order + 1):
+                size, turn = harmonic_errors(fit, number)
+                row[f"amplitude_{number}"], row[f"amplitude_{number}_se"] = float(fit.amplitude[number - 1]), size
+                row[f"phase_{number}"], row[f"phase_{number}_se"] = float(fit.phase[number - 1]), turn
             rows.append({**row, "omega": self.omega, "r2": float(fit.r2), "unit": self.units[name]})
         return pd.DataFrame(rows)
 
@@ -100,6 +101,30 @@ class SquatInWaves:
             raise FitError("the gauge saw no wave", cure="name another wave channel", place=f"channel {wave}")
         moved = phase_at(float(elevation.phase[0]), wave_x, to_x, k)
         return complex(float(motion.amplitude[0]) / height * np.exp(1j * (float(motion.phase[0]) - moved)))
+
+
+def harmonic_errors(fit: HarmonicFit, number: int = 1) -> tuple[float, float]:
+    """Standard errors of the amplitude, in its unit, and of the phase, in rad, of one harmonic of one channel.
+
+    Parameters
+    ----------
+    fit : HarmonicFit
+    number : int
+        1 for the first harmonic.
+
+    Returns
+    -------
+    (float, float)
+        The phase of a harmonic without amplitude is not known: infinite.
+    """
+    vector = np.array([fit.cos[number - 1], fit.sin[number - 1]], dtype=float)
+    amplitude = float(np.hypot(*vector))
+    # A harmonic that is not there has no direction: any one bounds its error.
+    along = vector / amplitude if amplitude > 0.0 else np.array([1.0, 0.0])
+    across = np.array([-along[1], along[0]])
+    cov = fit.cov[2 * number - 1 : 2 * number + 1, 2 * number - 1 : 2 * number + 1]
+    size, turn = (float(np.sqrt(max(float(of @ cov @ of), 0.0))) for of in (along, across))
+    return size, turn / amplitude if amplitude > 0.0 else float("inf")
 
 
 def reduce_in_waves(

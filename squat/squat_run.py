@@ -13,12 +13,14 @@ from ..core.findings import Finding
 from ..identify.autocorrelation import MeanEstimate
 from ..identify.harmonics import HarmonicFit
 from ..identify.steady_window import WindowChoice, speed_plateau, steady_window
+from .campaign_sections import SquatRecordEntry, SquatWindow
 from .noise_filter import filter_record
 from .sinkage_record import SinkageRecord, read_sinkage
 from .speed_steps import reduce_speed_steps
-from .squat_campaign import SquatCampaign, SquatRecordEntry, SquatWindow
+from .squat_campaign import SquatCampaign
 from .squat_in_waves import SquatInWaves, reduce_in_waves
 from .steady_squat import SteadySquat, reduce_steady
+from .wave_response import WaveResponses, wave_responses
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,6 +35,8 @@ class SquatRun:
     steady : tuple of SteadySquat
         One, or one for each step of speed; of a run in waves the means of the harmonic fits.
     waves : SquatInWaves, optional
+    responses : WaveResponses, optional
+        Of a run in waves whose gauge is named.
     findings : tuple of Finding
         Of the audit and of the reduction.
     """
@@ -42,6 +46,7 @@ class SquatRun:
     record: SinkageRecord
     steady: tuple[SteadySquat, ...]
     waves: SquatInWaves | None = None
+    responses: WaveResponses | None = None
     findings: tuple[Finding, ...] = ()
 
     @property
@@ -77,7 +82,9 @@ def reduce_run(
         When the file cannot be read, the audit finds an error that nobody accepted, or nothing can be averaged.
     """
     path = folder / entry.file
-    record = read_sinkage(path, campaign.make_layout(), accepted=accepted, units=campaign.channels.units or None)
+    record = read_sinkage(
+        path, campaign.make_layout(waves=entry.waves), accepted=accepted, units=campaign.channels.units or None
+    )
     if entry.speed is not None:
         if record.speed is not None:
             raise TowtankError(
@@ -115,7 +122,7 @@ def reduce_run(
             )
     except FitError as error:
         raise FitError(error.cause, cure=error.cure, file=path, place=error.place) from None
-    return SquatRun(name, entry, record, steady, None, (*record.findings, *_about(steady, record)))
+    return SquatRun(name, entry, record, steady, findings=(*record.findings, *_about(steady, record)))
 
 
 def _window_of(window: SquatWindow, entry: SquatRecordEntry) -> SquatWindow:
@@ -162,7 +169,8 @@ def _in_waves(
     )
     judged = np.column_stack([record.midship, record.trim])
     choice = steady_window(record.time, judged, rule="key-times", start=start, stop=stop)
-    means = {quantity: _mean_of(fit) for quantity, fit in waves.fits.items()}
+    aside = {campaign.channels.wave} - set(campaign.channels.extra)
+    means = {quantity: _mean_of(fit) for quantity, fit in waves.fits.items() if quantity not in aside}
     units = dict(waves.units)
     if record.speed is not None:
         level = float(np.mean(record.speed[choice.slice]))
@@ -172,7 +180,44 @@ def _in_waves(
         Finding("few-cycles", "warning", note, record.name, name, "take a longer window or a longer run")
         for note in waves.notes
     ]
-    return SquatRun(name, entry, record, (steady,), waves, (*record.findings, *found))
+    responses = _responses(campaign, waves, record, means, depth)
+    found += [
+        Finding("gauge-not-with-ship", "warning", note, record.name, name, "name a gauge on the carriage")
+        for note in (responses.notes if responses is not None else ())
+    ]
+    return SquatRun(name, entry, record, (steady,), waves, responses, (*record.findings, *found))
+
+
+def _responses(
+    campaign: SquatCampaign,
+    waves: SquatInWaves,
+    record: SinkageRecord,
+    means: dict[str, MeanEstimate],
+    depth: float | None,
+) -> WaveResponses | None:
+    """Motions over the wave where the campaign names a gauge."""
+    gauge, gauge_x = campaign.channels.wave, campaign.channels.wave_x
+    if not gauge or gauge_x is None:
+        return None
+    lacking = [what for what, missing in (("depth", depth is None), ("speed", "speed" not in means)) if missing]
+    if depth is None or lacking:
+        raise FitError(
+            f"the length of the waves needs the {' and the '.join(lacking)}",
+            cure="give the water depth, and a speed channel or the speed in m/s",
+            file=record.name or None,
+            place=f"channel {gauge}",
+        )
+    try:
+        return wave_responses(
+            waves,
+            gauge,
+            gauge_x=gauge_x,
+            reference_x=record.layout.xG,
+            depth=depth,
+            speed=float(means["speed"].mean),
+        )
+    except TowtankError as error:
+        raise FitError(error.cause, cure=error.cure, file=record.name or None, place=error.place) from None
 
 
 def _regular(choice: WindowChoice) -> WindowChoice:

@@ -17,7 +17,9 @@
 
     [sensors]
     pitch = "pitch"
+    pitch_positive = "bow-up"
     roll = "roll"
+    roll_positive = "starboard-down"
     speed = "sog"
 
     [tide]
@@ -71,16 +73,29 @@ class AntennaEntry(_Section):
 
 
 class Sensors(_Section):
-    """``[sensors]``: columns of the records beside the altitudes, and their signs."""
+    """``[sensors]``: columns of the records beside the altitudes; an angle that is named needs its sign."""
 
     time: str = "time"
     speed: str = ""
     position: str = ""
     pitch: str = ""
     roll: str = ""
-    pitch_positive: Literal["bow-down", "bow-up"] = "bow-down"
-    roll_positive: Literal["starboard-down", "port-down"] = "starboard-down"
+    pitch_positive: Literal["bow-down", "bow-up"] | None = None
+    roll_positive: Literal["starboard-down", "port-down"] | None = None
     units: dict[str, str] = Field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _signed(self) -> Sensors:
+        for name, key, senses in (
+            ("pitch", "pitch_positive", "bow-down or bow-up"),
+            ("roll", "roll_positive", "starboard-down or port-down"),
+        ):
+            if getattr(self, name) and getattr(self, key) is None:
+                raise ValueError(
+                    f"which way '{getattr(self, name)}' is positive is not declared -> gyros differ: give "
+                    f"{key} {senses}"
+                )
+        return self
 
 
 class TableEntry(_Section):
@@ -228,8 +243,8 @@ class VoyageFile(_Section):
             {name: Antenna(place.x, place.y, place.z) for name, place in self.antennas.items()},
             pitch=self.sensors.pitch,
             roll=self.sensors.roll,
-            pitch_positive=self.sensors.pitch_positive,
-            roll_positive=self.sensors.roll_positive,
+            pitch_positive=self.sensors.pitch_positive or "bow-down",
+            roll_positive=self.sensors.roll_positive or "starboard-down",
             time=self.sensors.time,
             speed=self.sensors.speed,
             position=self.sensors.position,

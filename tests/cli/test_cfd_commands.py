@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import os
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 
+from towtank.cfd import shipped_sweep
 from towtank.cfd.settled_loads import SETTLED_COLUMNS
 from towtank.cfd.virtual_sweep import GridErrorLaw, Histories, write_virtual_sweep
 
@@ -43,7 +46,7 @@ def sweep(tmp_path_factory) -> Path:
     return write_virtual_sweep(
         tmp_path_factory.mktemp("sweep"),
         law=GridErrorLaw(grids=2),
-        histories=Histories(duration=40.0),
+        histories=Histories(duration=30.0),
         motions=motions,
     )
 
@@ -52,6 +55,13 @@ def sweep(tmp_path_factory) -> Path:
 def drift(tmp_path_factory) -> Path:
     motions = tuple((beta, 0.0) for beta in (-4.0, 0.0, 4.0, 8.0, 12.0))
     histories = Histories(duration=30.0)
+    return write_virtual_sweep(tmp_path_factory.mktemp("drift"), histories=histories, motions=motions)
+
+
+@pytest.fixture(scope="module")
+def small_drift(tmp_path_factory) -> Path:
+    motions = tuple((beta, 0.0) for beta in (0.0, 8.0, 12.0))
+    histories = Histories(duration=20.0)
     return write_virtual_sweep(tmp_path_factory.mktemp("drift"), histories=histories, motions=motions)
 
 
@@ -82,8 +92,8 @@ def test_study_of_three_grids_beside_a_published_set(towtank, drift, tmp_path):
         ((*STUDY, "--method", "guess"), "no method 'guess'"),
     ],
 )
-def test_study_that_cannot_be_made_leaves_nothing(towtank, drift, tmp_path, words, cause):
-    ended = towtank("cfd", "study", drift, *KNOWN, *words, "--out", tmp_path / "study")
+def test_study_that_cannot_be_made_leaves_nothing(towtank, small_drift, tmp_path, words, cause):
+    ended = towtank("cfd", "study", small_drift, *KNOWN, *words, "--out", tmp_path / "study")
     assert ended.status == 2
     assert ended.err.count("\n") == 1
     assert cause in ended.err
@@ -280,7 +290,11 @@ def test_results_of_another_kind_are_not_overwritten(towtank, tmp_path):
     assert "another kind" in ended.err
 
 
-def test_demo_shows_truth_inside_and_order(towtank, tmp_path):
+def test_demo_shows_truth_inside_and_order(towtank, tmp_path, monkeypatch):
+    # Fewer motions of the shipped sweep, which tests/cfd/test_grid_study.py runs whole.
+    motions = tuple((beta, 0.0) for beta in (-4.0, 0.0, 4.0, 8.0, 12.0))
+    fewer = partial(shipped_sweep.run_virtual_sweep, histories=Histories(duration=30.0), motions=motions)
+    monkeypatch.setattr(shipped_sweep, "run_virtual_sweep", fewer)
     ended = towtank("demo", "cfd", "--out", tmp_path)
     assert (ended.status, ended.err) == (0, "")
     results = tmp_path / "virtual-cfd-sweep" / "results"
@@ -304,4 +318,112 @@ def test_demo_shows_truth_inside_and_order(towtank, tmp_path):
     assert "virtual computations" in ended.out
     page = (results / "report.html").read_text()
     assert "Virtual data" in page
-    assert "17 of 17" in page
+    assert f"{len(table)} of {len(table)}" in page
+
+
+def periodic(folder: Path) -> Path:
+    """A case in waves: forces, a motion, a gauge, residuals."""
+    wave = 2.0 * np.pi / 4.0
+    openfoam(folder, text(10.0 + (3.0 + 2.0 * np.exp(-TIME / 3.0)) * np.cos(wave * TIME) + 1e-3 * X))
+    place = folder / "postProcessing"
+    for name, content in {
+        "hull/0/sixDoFRigidBodyState.dat": "# Motion State\n# Angle Units: degrees\n# Time centreOfMass rotation\n"
+        + "".join(f"{t:.1f} (0 0 {0.1 * np.cos(wave * t):.6g}) (0 {np.sin(wave * t):.6g} 0)\n" for t in TIME),
+        "waves/0/surfaceElevation.dat": "Time gauge_0 gauge_1\n-1 0 1\n-2 0 0\n-3 0 0\n"
+        + "".join(f"{t:.1f} {0.02 * np.cos(wave * t):.6g} {0.02 * np.sin(wave * t):.6g}\n" for t in TIME),
+        "probes/0/p": "# Probe 0 (0 0 1)\n# Time 0\n" + "".join(f"{t:.1f} {np.cos(wave * t):.6g}\n" for t in TIME),
+        "solver/0/residuals.dat": "# Residuals\n# Time Ux p\n"
+        + "".join(f"{t:.1f} {1e-3 * np.exp(-t / 30):.6g} 1e-4\n" for t in TIME),
+    }.items():
+        file = place / name
+        file.parent.mkdir(parents=True)
+        file.write_text(content)
+    return folder
+
+
+def test_periodic_case_cycle_by_cycle(towtank, tmp_path):
+    case, out = periodic(tmp_path / "wave"), tmp_path / "out"
+    ended = towtank("cfd", "settle", case, "--out", out)
+    assert (ended.status, ended.err) == (0, "")
+    cycles = pd.read_csv(out / "cycles.csv")
+    of_x = cycles[cycles["load"] == "X"]
+    assert len(of_x) == 10
+    assert not of_x["kept"].iloc[0]
+    assert of_x["kept"].iloc[-1]
+    np.testing.assert_allclose(of_x["amplitude 1"].iloc[-3:], 3.0, atol=0.01)
+    assert set(cycles["load"]) >= {"X", "Y", "X_pressure", "X_viscous"}
+    settled = pd.read_csv(out / "settled.csv").set_index("load")
+    assert settled.loc["X", "cycles_dropped"] == (~of_x["kept"]).sum()
+    # Parts of a periodic load have whole cycles too, and add up.
+    parts = settled.loc[["X_pressure", "X_viscous"]]
+    assert parts["mean"].sum() == pytest.approx(settled.loc["X", "mean"], abs=1e-4)
+    assert parts["amplitude"].sum() == pytest.approx(settled.loc["X", "amplitude"], abs=1e-4)
+    page = (out / "report.html").read_text()
+    assert "X of wave: each cycle" in page
+    assert "X of wave: mean cycle" in page
+
+
+def test_histories_that_are_no_forces_are_read_and_settled(towtank, tmp_path):
+    case, out = periodic(tmp_path / "wave"), tmp_path / "out"
+    ended = towtank("cfd", "read", case, "--history", "all", "--out", out)
+    assert (ended.status, ended.err) == (0, "")
+    overview = pd.read_csv(out / "histories.csv").set_index("history")
+    assert dict(overview["kind"]) == {
+        "forces": "forces",
+        "hull": "motion",
+        "probes/p": "probes",
+        "solver": "residuals",
+        "waves": "surface",
+    }
+    assert overview.loc["probes/p", "points"] == "p_0 (0 0 1)"
+    motion = pd.read_csv(out / overview.loc["hull", "file"])
+    np.testing.assert_allclose(motion["rotation_y [deg]"], np.sin(np.pi / 2.0 * TIME), atol=1e-5)
+    gauges = towtank("cfd", "settle", case, "--history", "surface", "--out", tmp_path / "gauges")
+    assert (gauges.status, gauges.err) == (0, "")
+    settled = pd.read_csv(tmp_path / "gauges" / "settled.csv").set_index("load")
+    assert list(settled["verdict"]) == ["periodic", "periodic"]
+    assert settled.loc["gauge_1", "amplitude"] == pytest.approx(0.02, rel=1e-3)
+    assert settled.loc["gauge_0", "unit"] == "m"
+    assert not (tmp_path / "gauges" / "points.csv").exists()
+    drifting = towtank("cfd", "settle", case, "--history", "solver")
+    assert drifting.status == 2
+    assert "Ux of case 'wave': still drifting" in drifting.err
+
+
+def test_histories_that_are_not_there(towtank, tmp_path):
+    case = periodic(tmp_path / "wave")
+    for words in (("read",), ("settle",)):
+        ended = towtank("cfd", *words, case, "--history", "rudder", "--out", tmp_path / "out")
+        assert ended.status == 2
+        assert "there is no history 'rudder' -> the case has forces (forces), hull (motion)" in ended.err
+    assert not (tmp_path / "out").exists()
+
+
+def test_case_run_again_over_a_stale_folder_is_a_finding(towtank, tmp_path):
+    case = openfoam(tmp_path / "case", text(X))
+    stale = case / "postProcessing" / "forces" / "20" / "force.dat"
+    stale.parent.mkdir()
+    stale.write_text(text(3.0 * X[:100], TIME[:100] + 20.0))
+    os.utime(stale, (1.7e9, 1.7e9))
+    ended = towtank("cfd", "settle", case, "--json")
+    told = json.loads(ended.out)
+    assert [item["rule"] for item in told["findings"]] == ["run-order"]
+    assert "folder 20 is left from a run before" in told["findings"][0]["message"]
+    assert told["settled"][0]["mean"] == pytest.approx(-10.0, abs=0.05)
+    assert "warning [run-order]" in towtank("cfd", "settle", case).out
+
+
+def test_a_folder_of_one_monitor_a_file(towtank, tmp_path):
+    folder = tmp_path / "beta_4_U_1"
+    folder.mkdir()
+    for name, unit, factor in (("Force X", "kN", 1.0), ("Force Y", "N", 2.0), ("Moment Z", "N-m", 3.0)):
+        rows = "".join(f"{t:.1f},{factor * x:.6f}\n" for t, x in zip(TIME, X))
+        heading = f'"Physical Time: Physical Time (s)","{name} Monitor: {name} ({unit})"\n'
+        (folder / f"{name}.csv").write_text(heading + rows)
+    ended = towtank("cfd", "settle", folder, "--json")
+    assert (ended.status, ended.err) == (0, "")
+    rows = {row["load"]: row for row in json.loads(ended.out)["settled"]}
+    assert rows["X"]["mean"] == pytest.approx(-10000.0, rel=0.005)
+    assert rows["Y"]["mean"] == pytest.approx(20.0, rel=0.005)
+    assert rows["N"]["mean"] == pytest.approx(-30.0, rel=0.005)
+    assert "Fx_total from Force X of Force X.csv" in towtank("cfd", "read", folder).out

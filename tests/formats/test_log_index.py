@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from towtank.formats import log_index, log_rows
-from towtank.formats.log_index import first_index, index_blocks
+from towtank.formats.log_index import first_index, index_blocks, last_index
 from towtank.formats.log_layout import LogLayout
 
 LAYOUT = LogLayout("OpenFOAM", "monitor", ("time", "a"), {}, 0)
@@ -70,3 +70,25 @@ def test_the_first_time(tmp_path):
     assert first_index(path, LAYOUT) == 2.5
     path.write_text("# Time a\n")
     assert first_index(path, LAYOUT) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("0.1 1\n0.2 1\n0.4 1\n", (0.2, 0.4)),
+        ("0.1 1\n0.2 1\n0.4 ", (0.1, 0.2)),
+        ("0.1 1\n0.2 1\n# Time a\n", (0.1, 0.2)),
+        ("0.1 1\n", (np.nan, 0.1)),
+        ("", (np.nan, np.nan)),
+    ],
+)
+def test_last_two_times(tmp_path, text, expected):
+    path = tmp_path / "log.dat"
+    path.write_text(text)
+    np.testing.assert_equal(last_index(path, LAYOUT), expected)
+
+
+def test_last_times_of_a_long_file_begin_within_a_line(tmp_path):
+    path = tmp_path / "log.dat"
+    path.write_text("".join(f"{i} {i * 0.1:.30f}\n" for i in range(5000)))
+    assert last_index(path, LAYOUT) == (4998.0, 4999.0)

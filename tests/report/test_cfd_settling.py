@@ -7,7 +7,7 @@ from towtank.cfd.case_loads import CaseLoads, LoadChoices
 from towtank.cfd.case_sweep import CaseSweep, SweepCase
 from towtank.cfd.settled_loads import SettledCase, settle_case, settling_findings
 from towtank.core.conventions import Conventions
-from towtank.report.cfd_settling_figures import cycle_figure, running_mean_figure
+from towtank.report.cfd_settling_figures import cycle_figure, phase_figure, running_mean_figure
 from towtank.report.cfd_settling_outputs import drawn_cases, render_settling_report, settling_row, write_settled
 from towtank.report.cfd_settling_tables import (
     load_table,
@@ -58,6 +58,17 @@ def test_cycles_of_a_periodic_load(cases):
     assert first.get_ydata()[-1] == pytest.approx(3.0, abs=0.02)
 
 
+def test_mean_cycle_of_a_periodic_load(cases):
+    axes = phase_figure(cases[1], "Y")
+    degrees, mean = axes.lines[0].get_data()
+    omega = cases[1]["Y"].cycles.omega
+    assert (degrees[0], degrees[-1]) == (0.0, 360.0)
+    np.testing.assert_allclose(mean, 3.0 * np.cos(np.radians(degrees)), atol=0.1)
+    assert omega == pytest.approx(2.0 * np.pi / 4.0, rel=1e-3)
+    kept = cases[1]["Y"].cycles.cycles - cases[1]["Y"].cycles.drop
+    assert axes.get_xlabel() == f"phase ωt [deg], {kept} cycles"
+
+
 def test_unsettled_cases_are_drawn_first(cases):
     assert [item.case.name for item in drawn_cases(cases, 2)] == ["blown", "slow"]
 
@@ -85,15 +96,16 @@ def test_text_and_records(cases):
 
 def test_page_shows_a_panel_for_each_load_and_its_cycles(cases):
     page = render_settling_report(cases, settling_findings(cases))
-    assert page.count("<svg") == 2 * 4 + 1
+    # History of two loads of four cases, and the cycles and the mean cycle of the periodic one.
+    assert page.count("<svg") == 2 * 4 + 2
     assert "Virtual data" not in page
     assert "still-drifting" in page
-    assert len(settling_row(cases[1], "a").drawings) == 3
+    assert len(settling_row(cases[1], "a").drawings) == 4
 
 
 def test_points_are_left_out_while_a_case_stops_a_fit(cases, tmp_path):
     sweep = CaseSweep(tuple(item.case for item in cases))
     written = write_settled(sweep, cases, LoadChoices(), tmp_path / "out", report=False)
-    assert [path.name for path in written] == ["settled.csv", "provenance.json"]
+    assert [path.name for path in written] == ["settled.csv", "cycles.csv", "provenance.json"]
     good = write_settled(CaseSweep(sweep.cases[:1]), cases[:1], LoadChoices(), tmp_path / "good", report=False)
     assert [path.name for path in good] == ["settled.csv", "points.csv", "provenance.json"]

@@ -22,7 +22,7 @@ from towtank.report.score_figures import (
     shown_units,
 )
 from towtank.report.score_outputs import score_text
-from towtank.report.score_page import case_table, render_scores
+from towtank.report.score_page import case_table, full_scale_table, render_scores
 from towtank.report.squat_figures import (
     clearance_figure,
     corrected_figure,
@@ -32,9 +32,16 @@ from towtank.report.squat_figures import (
 )
 from towtank.report.squat_outputs import squat_text
 from towtank.report.squat_prediction_outputs import prediction_text
-from towtank.report.squat_prediction_page import formula_table, render_prediction
+from towtank.report.squat_prediction_page import formula_table, limit_lines, render_prediction
 from towtank.report.squat_report import render_squat_report
-from towtank.report.squat_tables import clearance_table, fits_table, formula_scores_table, means_table
+from towtank.report.squat_tables import (
+    clearance_table,
+    fits_table,
+    formula_scores_table,
+    means_table,
+    waves_table,
+    windows_table,
+)
 from towtank.report.squat_units import quantity_title, shown_length, shown_quantity, with_error
 from towtank.squat.code_scores import CodeScores, score_tables
 from towtank.squat.curve_table import read_curve_table
@@ -185,6 +192,7 @@ def test_squat_page_is_self_contained(analysis: SquatAnalysis) -> None:
         assert f'<section id="{anchor}">' in page
         assert f'<a href="#{anchor}">' in page
     assert "Virtual data." in page
+    assert "Correction kreitner" in page
     assert "2026-01-02" in page
     assert not re.search(r'(src|href)="(?!#)', page)
     identifiers = re.findall(r'<clipPath id="([^"]+)"', page)
@@ -217,6 +225,17 @@ def test_tables(analysis: SquatAnalysis, scores: CodeScores, passage: SquatForec
     means = means_table(analysis)
     assert means.columns[1].title == "bow [mm]"
     assert [row[0] for row in means.rows][:2] == ["run_06kn", "run_08kn"]
+    windows = windows_table(analysis)
+    assert [column.title for column in windows.columns] == ["run", "window [s]", "n eff"]
+    (run,) = [run for run in analysis.runs if run.waves is not None]
+    assert run.waves is not None
+    harmonics = waves_table(analysis, run.waves)
+    bow = harmonics.rows[0]
+    assert bow[0] == "bow [mm]"
+    assert bow[2].strip().startswith("2.08")
+    assert " ± " in bow[2]
+    # virtual waves have no second harmonic, and what is not there has no phase
+    assert bow[5].strip() == "–"
     fits = fits_table(analysis, group)
     assert fits.columns[-1].title == "true c"
     assert fits.rows[0][-1].strip().startswith("19.00")
@@ -230,8 +249,12 @@ def test_tables(analysis: SquatAnalysis, scores: CodeScores, passage: SquatForec
     assert {"icorels", "yoshimura"} <= greyed
     numbers = formula_table(group.comparison.prediction, length, knots=False)
     # three runs of one speed make one column
-    assert len(numbers.columns) == 2 + 5
-    assert case_table(scores).columns[-3].title == "rms, full scale"
+    assert len(numbers.columns) == 1 + 5
+    assert dict(limit_lines(group.comparison.prediction))["norrbin"] == "not for a canal"
+    assert [column.title for column in case_table(scores).columns][-3:] == ["max", "unit", "note"]
+    full_scale = full_scale_table(scores)
+    assert full_scale.rows[0][-1] == "m"
+    assert float(full_scale.rows[0][3].strip()) == pytest.approx(scores.details["rms_full_scale"][0], rel=5e-3)
     assert formula_table(passage.prediction, SHIP.L, knots=True).rows[0][0] == "huuska"
 
 

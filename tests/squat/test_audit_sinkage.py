@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from towtank.core.errors import AuditError
+from towtank.core.errors import AuditError, ReadError
 from towtank.squat.sinkage_layout import SinkageLayout
 from towtank.squat.sinkage_record import read_sinkage
 
@@ -53,6 +53,13 @@ def _with_gap():
 def test_a_sabotaged_file_stops_under_the_name_of_its_fault(write_run, channels, rule):
     with pytest.raises(AuditError, match=rf"run\.dat.*\[{rule}\]"):
         read_sinkage(write_run(**channels), LAYOUT)
+
+
+@pytest.mark.parametrize("size", [1.0, 1e4])
+def test_a_force_is_told_from_a_sinkage_by_its_dimension_not_by_its_size(write_run, size):
+    file = write_run(**_with(z_VF=size * GOOD["z_VF"]), units={"z_VF": "N"})
+    with pytest.raises(ReadError, match=r"run\.dat, channel z_VF.*is in N, a force, and should be a length"):
+        read_sinkage(file, LAYOUT)
 
 
 def test_a_channel_without_a_unit_is_taken_as_si_and_said(tmp_path):

@@ -8,7 +8,7 @@ import pytest
 from pydantic import BaseModel
 
 from towtank.core.errors import CampaignError
-from towtank.squat import squat_campaign, voyage_file
+from towtank.squat import campaign_sections, voyage_file
 from towtank.squat.named_corrections import CORRECTIONS
 from towtank.squat.noise_filter import FILTERS
 from towtank.squat.prediction import FORMULAS
@@ -120,7 +120,7 @@ def test_a_ship_without_breadth_gives_no_curve_but_a_layout():
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "squat.md").read_text(encoding="utf-8")
 SECTIONS = [
     one
-    for module in (squat_campaign, voyage_file)
+    for module in (campaign_sections, voyage_file)
     for one in vars(module).values()
     if isinstance(one, type) and issubclass(one, BaseModel)
 ]

@@ -26,6 +26,14 @@ def test_what_is_not_given_has_the_values_of_the_source(file):
     assert voyage.accuracy.pitch == pytest.approx(0.01)
 
 
+def test_antennas_that_tell_trim_and_heel_need_no_signs(file):
+    text = file.read_text(encoding="utf-8")
+    begin, end = text.index("pitch = "), text.index("[tide]")
+    other = file.with_name("antennas_only.toml")
+    other.write_text(text[:begin] + 'speed = "sog"\n\n' + text[end:], encoding="utf-8")
+    assert load_voyage(other).make_layout().knows_heel
+
+
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
@@ -39,6 +47,16 @@ def test_what_is_not_given_has_the_values_of_the_source(file):
         ("L = 350.0", "L = -350.0", r"L = -350\.0 is not positive"),
         ("rho = 1005.0\n\n[ant", "scale = 40.0\n\n[ant", "key 'ship.scale': the ship is at scale 40"),
         ('pitch_positive = "bow-up"', 'pitch_positive = "up"', r"key 'sensors.pitch_positive'"),
+        (
+            'pitch_positive = "bow-up"\n',
+            "",
+            "key 'sensors': which way 'pitch' is positive is not declared .* give pitch_positive bow-down or bow-up",
+        ),
+        (
+            'roll_positive = "port-down"\n',
+            "",
+            "key 'sensors': which way 'roll' is positive .* give roll_positive starboard-down or port-down",
+        ),
         ("B = 51.2", "", "ship: 'B' is missing"),
         ("[voyage]", "[voyage", "not valid TOML"),
     ],
